@@ -1,0 +1,166 @@
+//! The trait of all rooms.
+
+use crate::{Array, AttributeKey, BakeError, ColumnKey};
+use foliar_plant::{Plant, Raster};
+use foliar_schema::Scene;
+use glam::DAffine3;
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+
+/// Named rasters (thickness, normal, color of a leaf).
+pub type Maps = BTreeMap<String, Raster>;
+
+/// A neighbor plant where it stands, relative to the plant that is baked.
+#[derive(Debug)]
+pub struct Placed {
+    /// The neighbor.
+    pub plant: Plant,
+    /// From its rest frame to that of the plant that is baked.
+    pub transform: DAffine3,
+}
+
+/// What a room may read. Never another room's layer.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a> {
+    /// Base and structure.
+    pub plant: Option<&'a Plant>,
+    /// Named rasters.
+    pub maps: &'a Maps,
+    /// Plants around it.
+    pub neighbors: &'a [Placed],
+}
+
+/// What a room cannot do without.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// A plant.
+    pub plant: bool,
+    /// Names of maps.
+    pub maps: &'static [&'static str],
+}
+
+/// What structure knows of a plant, for decisions that need no geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Rows of `foliarLeaf`.
+    pub leaves: usize,
+    /// Vertices of leaf parts.
+    pub leaf_vertices: usize,
+    /// Vertices of wood parts.
+    pub wood_vertices: usize,
+    /// Longest edge of the box around wood and leaves, meters.
+    pub size_m: f64,
+}
+
+impl Facts {
+    /// The facts of a plant.
+    pub fn of(plant: &Plant) -> Self {
+        let vertices = |role| {
+            let parts = plant.parts().iter().enumerate().filter(|(i, _)| plant.role(*i) == role);
+            parts.map(|(_, part)| part.positions.len()).sum()
+        };
+        Facts {
+            leaves: plant.leaves().len(),
+            leaf_vertices: vertices(foliar_schema::Role::Leaf),
+            wood_vertices: vertices(foliar_schema::Role::Wood),
+            size_m: plant.size().max_element(),
+        }
+    }
+}
+
+/// A baker's answer to a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Requirement {
+    /// Bake, with these parameters where nobody says otherwise.
+    Required {
+        /// What the scene implies (only what differs from the defaults).
+        params: Map<String, Value>,
+        /// Why, in words.
+        because: String,
+        /// Bytes that the layer adds to the file.
+        bytes: u64,
+    },
+    /// Leave it out.
+    NotRequired {
+        /// Why, in words.
+        because: String,
+    },
+}
+
+/// One rung of an accuracy ladder: parameters, and the error that they promise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// Name for tables.
+    pub name: &'static str,
+    /// Parameters, over the defaults.
+    pub params: Map<String, Value>,
+    /// Largest rms error per channel, in visible steps, against the room's reference.
+    pub promise_steps: f64,
+}
+
+/// What a room hands back: arrays, the parameters as it used them, and facts for the record.
+#[derive(Clone, Debug, Default)]
+pub struct Baked {
+    /// Values per vertex.
+    pub attributes: BTreeMap<AttributeKey, Array>,
+    /// Values per table row.
+    pub columns: BTreeMap<ColumnKey, Array>,
+    /// Every parameter as it was used.
+    pub resolved: Map<String, Value>,
+    /// Facts that a reader needs beside the arrays.
+    pub facts: Map<String, Value>,
+    /// Errors against the reference, where the room measured them.
+    pub errors: Vec<foliar_schema::MeasuredError>,
+    /// What a person should know.
+    pub findings: Vec<foliar_schema::Finding>,
+}
+
+/// Hears how far a bake is.
+pub trait Progress: Sync {
+    /// `done` of `total` steps of `stage`.
+    fn step(&self, stage: &str, done: u64, total: u64);
+}
+
+/// A progress that nobody hears.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Quiet;
+
+impl Progress for Quiet {
+    fn step(&self, _: &str, _: u64, _: u64) {}
+}
+
+/// A room: a pure function from plant, maps and parameters to one layer.
+pub trait Baker: Sync {
+    /// Name of room, section, layer and program (`density` gives `foliar-density`).
+    fn room(&self) -> &'static str;
+
+    /// Changes whenever results change: the cache and re-bakes rely on it.
+    fn version(&self) -> u32;
+
+    /// One line for help texts.
+    fn about(&self) -> &'static str;
+
+    /// JSON Schema of the parameters (`schemars::schema_for!`): flags, files, help come from it.
+    fn schema(&self) -> Value;
+
+    /// What it cannot do without.
+    fn needs(&self) -> Needs;
+
+    /// Whether a scene needs it, and with which parameters.
+    fn require(&self, scene: &Scene, facts: &Facts) -> Requirement;
+
+    /// Rungs that law 5, tradeoff and bench walk.
+    fn ladder(&self) -> Vec<Rung>;
+
+    /// Bakes. `params` holds every parameter, defaults included, ranges checked.
+    ///
+    /// # Errors
+    /// [`BakeError`]; nothing is ever half done.
+    fn bake(&self, inputs: &Inputs, params: &Map<String, Value>, progress: &dyn Progress) -> Result<Baked, BakeError>;
+
+    /// The shortest correct program for the same result (f64, all pairs): what tests compare with.
+    ///
+    /// # Errors
+    /// As [`Baker::bake`].
+    fn reference(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Baked, BakeError>;
+}

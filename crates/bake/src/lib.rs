@@ -1,0 +1,16 @@
+//! What a baker is: a pure function from a plant, maps and parameters to one layer; and the laws
+//! that every baker keeps.
+
+mod array;
+mod baker;
+mod error;
+mod hash;
+mod layer;
+mod run;
+
+pub use array::Array;
+pub use baker::{Baked, Baker, Facts, Inputs, Maps, Needs, Placed, Progress, Quiet, Requirement, Rung};
+pub use error::BakeError;
+pub use hash::base_hash;
+pub use layer::{AttributeKey, ColumnKey, Layer};
+pub use run::{Request, resolve_params, run};

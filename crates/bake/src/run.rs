@@ -1,0 +1,133 @@
+//! Runs a baker: parameters over defaults, ranges, the bake, and the laws that can be checked on
+//! the spot (own room, in range).
+
+use crate::{Array, BakeError, Baked, Baker, Inputs, Layer, Progress};
+use foliar_schema::{CHANNELS, COLUMNS, Channel, Record, check_ranges};
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+
+/// What is asked of one baker.
+#[derive(Clone, Debug, Default)]
+pub struct Request {
+    /// Parameters that a person gave: they go into the record.
+    pub given: Map<String, Value>,
+    /// Parameters that the scene implies, weaker than `given`.
+    pub implied: Map<String, Value>,
+    /// Hashes of what the room reads, by name.
+    pub reads: BTreeMap<String, String>,
+}
+
+/// Every parameter: defaults of the schema, then `implied`, then `given`, ranges checked.
+///
+/// # Errors
+/// [`BakeError::Parameter`] for a name that the baker does not know, [`BakeError::Range`] for a
+/// value outside its range.
+pub fn resolve_params(
+    baker: &dyn Baker,
+    implied: &Map<String, Value>,
+    given: &Map<String, Value>,
+) -> Result<Map<String, Value>, BakeError> {
+    let schema = baker.schema();
+    let known = schema["properties"].as_object().cloned().unwrap_or_default();
+    let mut params: Map<String, Value> =
+        known.iter().map(|(name, property)| (name.clone(), property["default"].clone())).collect();
+    for (name, value) in implied.iter().chain(given) {
+        let slot = params.get_mut(name).ok_or_else(|| BakeError::Parameter {
+            room: baker.room().into(),
+            place: name.clone(),
+            reason: format!("no such parameter; there are {}", known.keys().cloned().collect::<Vec<_>>().join(", ")),
+        })?;
+        // Null never means "auto": it is what a NaN becomes in JSON.
+        if !value.is_null() {
+            *slot = value.clone();
+        }
+    }
+    check_ranges(&schema, &Value::Object(params.clone()))
+        .map_err(|source| BakeError::Range { room: baker.room().into(), source })?;
+    Ok(params)
+}
+
+/// Bakes one layer.
+///
+/// # Errors
+/// [`BakeError`]; a value outside its channel's declared range is [`BakeError::Broken`].
+pub fn run(
+    baker: &dyn Baker,
+    inputs: &Inputs,
+    request: &Request,
+    progress: &dyn Progress,
+) -> Result<(Layer, Vec<foliar_schema::Finding>), BakeError> {
+    let params = resolve_params(baker, &request.implied, &request.given)?;
+    if baker.needs().plant && inputs.plant.is_none() {
+        return Err(BakeError::Needs {
+            room: baker.room().into(),
+            what: "a plant",
+            remedy: "give an OBJ, glTF or GLB file".into(),
+        });
+    }
+    if let Some(missing) = baker.needs().maps.iter().find(|m| !inputs.maps.contains_key(**m)) {
+        return Err(BakeError::Needs { room: baker.room().into(), what: missing, remedy: "give the map".into() });
+    }
+    let baked = baker.bake(inputs, &params, progress)?;
+    check_baked(baker.room(), &baked)?;
+    Ok(into_layer(baker, request, baked))
+}
+
+fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec<foliar_schema::Finding>) {
+    let mut writes: Vec<String> = baked.attributes.keys().map(|k| k.name.clone()).collect();
+    writes.extend(baked.columns.keys().map(|k| format!("{}/{}", k.class, k.property)));
+    writes.sort();
+    writes.dedup();
+    let record = Record {
+        room: baker.room().into(),
+        version: baker.version(),
+        given: request.given.clone(),
+        resolved: baked.resolved,
+        reads: request.reads.clone(),
+        writes,
+        errors: baked.errors,
+        facts: baked.facts,
+        more: Map::new(),
+    };
+    (Layer { record, attributes: baked.attributes, columns: baked.columns, roles: BTreeMap::new() }, baked.findings)
+}
+
+fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
+    for (key, array) in &baked.attributes {
+        let channel = CHANNELS.iter().find(|c| c.name == key.name && c.room == room);
+        let broken = first_broken(channel, array);
+        if let Some((row, value)) = broken {
+            return Err(BakeError::Broken { room: room.into(), channel: key.name.clone(), row, value });
+        }
+    }
+    for (key, array) in &baked.columns {
+        let declared = COLUMNS.iter().any(|c| c.class == key.class && c.name == key.property && c.room == room);
+        let bad = array.as_f32().and_then(|data| data.iter().position(|v| !v.is_finite()));
+        if !declared || bad.is_some() {
+            let channel = format!("{}/{}", key.class, key.property);
+            return Err(BakeError::Broken {
+                room: room.into(),
+                channel,
+                row: bad.unwrap_or(0) / array.width(),
+                value: f32::NAN,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// First row outside the declared range; row 0 where the room may not write the channel at all.
+fn first_broken(channel: Option<&Channel>, array: &Array) -> Option<(usize, f32)> {
+    // One ulp of a unit vector's rounded components, three times squared and summed.
+    const UNIT_TOLERANCE: f32 = 1e-6;
+    let (Some(channel), Some(data)) = (channel, array.as_f32()) else { return Some((0, f32::NAN)) };
+    if channel.width != array.width() {
+        return Some((0, f32::NAN));
+    }
+    data.chunks_exact(channel.width).enumerate().find_map(|(row, values)| {
+        let outside = values.iter().find(|v| !(**v >= channel.min && **v <= channel.max));
+        let length = values.iter().map(|v| v * v).sum::<f32>().sqrt();
+        let off = channel.unit_length && (length - 1.0).abs() > UNIT_TOLERANCE;
+        outside.copied().or(off.then_some(length)).map(|value| (row, value))
+    })
+}

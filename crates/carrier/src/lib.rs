@@ -1,0 +1,1 @@
+//! OBJ, glTF, images and layers to and from plants; assembling

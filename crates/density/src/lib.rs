@@ -1,0 +1,1 @@
+//! Metaball density: ambient coefficient k_a and realigned normals (Luft07)

@@ -1,0 +1,181 @@
+//! Channels (values per vertex) and columns (values per leaf or branch), with units, ranges and
+//! the step that an eye can just see.
+
+use crate::{Role, names};
+
+/// Number type of a channel or column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// 32-bit float.
+    F32,
+    /// 32-bit signed integer.
+    I32,
+}
+
+/// What a vertex gets that a channel does not apply to, where its mesh must carry it all the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Neutral {
+    /// The same number in every component.
+    Value(f32),
+    /// The vertex's own NORMAL.
+    OwnNormal,
+    /// The id that means "none": the number of rows of the table.
+    NullId,
+}
+
+/// One value per vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Channel {
+    /// Name in a layer and, unless it is an id, of the glTF attribute.
+    pub name: &'static str,
+    /// Who writes it.
+    pub room: &'static str,
+    /// Numbers per vertex.
+    pub width: usize,
+    /// Parts that it says something about.
+    pub roles: &'static [Role],
+    /// Least value of a component.
+    pub min: f32,
+    /// Greatest value of a component.
+    pub max: f32,
+    /// Whether each value is a unit vector.
+    pub unit_length: bool,
+    /// Unit of measure.
+    pub unit: &'static str,
+    /// Smallest difference that can be seen, in `step_unit`.
+    pub visible_step: f64,
+    /// Unit of the visible step.
+    pub step_unit: &'static str,
+    /// What stands where it does not apply.
+    pub neutral: Neutral,
+    /// One line for docs and legends.
+    pub doc: &'static str,
+}
+
+/// One value per row of a property table.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// Class of the table.
+    pub class: &'static str,
+    /// Property of the class.
+    pub name: &'static str,
+    /// Who writes it.
+    pub room: &'static str,
+    /// Number type.
+    pub element: Element,
+    /// Numbers per row: 1 SCALAR, 2 to 4 VECn (or an array where `array`).
+    pub width: usize,
+    /// A fixed-length array rather than a vector.
+    pub array: bool,
+    /// Unit of measure.
+    pub unit: &'static str,
+    /// One line for docs.
+    pub doc: &'static str,
+}
+
+/// Steps and rooms in the order in which files list them.
+pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_DENSITY];
+
+/// Largest leaf id that a float attribute holds exactly.
+const MAX_ID: f32 = 16_777_216.0;
+
+/// All channels, in the order in which files list them.
+pub const CHANNELS: &[Channel] = &[
+    Channel {
+        name: names::LEAF_ID,
+        room: names::ROOM_STRUCTURE,
+        width: 1,
+        roles: &[Role::Leaf],
+        min: 0.0,
+        max: MAX_ID,
+        unit_length: false,
+        unit: "row of foliarLeaf",
+        visible_step: 1.0,
+        step_unit: "id",
+        neutral: Neutral::NullId,
+        doc: "leaf that the vertex belongs to",
+    },
+    Channel {
+        name: names::AMBIENT,
+        room: names::ROOM_DENSITY,
+        width: 1,
+        roles: &[Role::Leaf, Role::Wood],
+        min: 0.0,
+        max: 1.0,
+        unit_length: false,
+        unit: "1",
+        visible_step: 1.0 / 255.0,
+        step_unit: "1",
+        neutral: Neutral::Value(1.0),
+        doc: "ambient coefficient: share of the sky's light that reaches the vertex",
+    },
+    Channel {
+        name: names::SOFT_NORMAL,
+        room: names::ROOM_DENSITY,
+        width: 3,
+        roles: &[Role::Leaf],
+        min: -1.0,
+        max: 1.0,
+        unit_length: true,
+        unit: "unit vector, mesh frame",
+        visible_step: 1.0,
+        step_unit: "degree",
+        neutral: Neutral::OwnNormal,
+        doc: "normal realigned to the shape of the crown",
+    },
+];
+
+macro_rules! leaf_column {
+    ($name:literal, $element:ident, $width:literal, $unit:literal, $doc:literal) => {
+        Column {
+            class: names::CLASS_LEAF,
+            name: $name,
+            room: names::ROOM_STRUCTURE,
+            element: Element::$element,
+            width: $width,
+            array: false,
+            unit: $unit,
+            doc: $doc,
+        }
+    };
+}
+
+/// All columns, in the order in which files list them.
+pub const COLUMNS: &[Column] = &[
+    leaf_column!("center", F32, 3, "m, rest frame", "area-weighted center of the leaf"),
+    leaf_column!("normal", F32, 3, "unit vector, rest frame", "area-weighted normal, side of the first face"),
+    leaf_column!("area", F32, 1, "m^2", "one-sided area times alpha coverage"),
+    leaf_column!("group", I32, 1, "group id", "leaves that are one object share it"),
+    leaf_column!("petiole", F32, 3, "m, rest frame", "point of the leaf nearest to wood"),
+    leaf_column!("crownVolume", I32, 1, "0 or 1", "1 where the row was sampled from a crown volume"),
+];
+
+/// The channel of this name.
+pub fn channel(name: &str) -> Option<&'static Channel> {
+    CHANNELS.iter().find(|c| c.name == name)
+}
+
+/// The column of this class and name.
+pub fn column(class: &str, name: &str) -> Option<&'static Column> {
+    COLUMNS.iter().find(|c| c.class == class && c.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_channel_and_column_belongs_to_a_listed_room() {
+        assert!(CHANNELS.iter().map(|c| c.room).chain(COLUMNS.iter().map(|c| c.room)).all(|r| ROOMS.contains(&r)));
+    }
+
+    #[test]
+    fn names_are_unique() {
+        let mut names: Vec<_> = CHANNELS.iter().map(|c| c.name.to_string()).collect();
+        names.extend(COLUMNS.iter().map(|c| format!("{}/{}", c.class, c.name)));
+        let all = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), all);
+    }
+}

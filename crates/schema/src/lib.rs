@@ -1,0 +1,24 @@
+//! The contract of foliar: every name, channel, column, range, unit, visible step, issue code and
+//! configuration section that crosses a crate or reaches a file. Nothing else in the workspace
+//! spells one of these names.
+
+mod channel;
+mod codes;
+mod config;
+mod extension;
+mod finding;
+pub mod names;
+mod ranges;
+mod record;
+mod role;
+
+pub use channel::{CHANNELS, COLUMNS, Channel, Column, Element, Neutral, ROOMS, channel, column};
+pub use codes::{CODES, CodeInfo, code};
+pub use config::{
+    Ambient, Budget, Camera, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
+};
+pub use extension::{CONTRACT, FoliageExtension, PrimitiveExtension};
+pub use finding::{Finding, Severity};
+pub use ranges::{RangeError, check_ranges};
+pub use record::{MeasuredError, Record};
+pub use role::Role;

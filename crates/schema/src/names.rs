@@ -1,0 +1,38 @@
+//! Names that stand in files.
+
+/// Our own glTF extension, at the root and at primitives.
+pub const EXTENSION: &str = "FOLIAR_foliage";
+/// Feature ids per vertex (3D Tiles).
+pub const MESH_FEATURES: &str = "EXT_mesh_features";
+/// Property tables (3D Tiles).
+pub const STRUCTURAL_METADATA: &str = "EXT_structural_metadata";
+/// Prefix of feature id attributes; the first free number is taken.
+pub const FEATURE_ID_PREFIX: &str = "_FEATURE_ID_";
+/// Label of the leaf ids among a primitive's feature ids.
+pub const LABEL_LEAF: &str = "foliar_leaf";
+/// Label of the branch ids among a primitive's feature ids.
+pub const LABEL_BRANCH: &str = "foliar_branch";
+/// Buffer views of foliar are named `foliar:ROOM:NAME`.
+pub const VIEW_PREFIX: &str = "foliar:";
+/// Id of the schema that foliar writes where a file has none.
+pub const METADATA_SCHEMA_ID: &str = "foliar";
+
+/// Layer key of leaf ids (in files: a feature id attribute with label [`LABEL_LEAF`]).
+pub const LEAF_ID: &str = "LEAF_ID";
+/// Ambient coefficient k_a (Luft07 eq. 4) or the sky's ambient term.
+pub const AMBIENT: &str = "_AMBIENT";
+/// Realigned normal (Luft07 section 4), unit, in the mesh's own frame.
+pub const SOFT_NORMAL: &str = "_SOFT_NORMAL";
+
+/// Table class of leaves; row = leaf id.
+pub const CLASS_LEAF: &str = "foliarLeaf";
+
+/// The step that finds roles and leaves.
+pub const ROOM_STRUCTURE: &str = "structure";
+/// The room of metaball density (Luft07).
+pub const ROOM_DENSITY: &str = "density";
+
+/// Key of the record in the metadata of a layer file (safetensors).
+pub const LAYER_METADATA_KEY: &str = "foliar";
+/// File ending of a layer on disk.
+pub const LAYER_ENDING: &str = "layer";

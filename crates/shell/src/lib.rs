@@ -1,0 +1,1 @@
+//! Flags, configuration, exit status, reports; the commands of foliar

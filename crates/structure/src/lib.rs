@@ -1,0 +1,1 @@
+//! Geometry to facts: roles, leaves, groups, petioles
