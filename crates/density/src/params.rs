@@ -1,0 +1,148 @@
+//! Parameters of the density room: what a person would pick, each defined once (Luft07 eqs. 2 to 4).
+
+use crate::ROOM;
+use foliar_bake::BakeError;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// Which leaves a vertex of a leaf counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SelfLeaf {
+    /// All but the leaf's own group: a lone leaf is fully lit.
+    #[default]
+    Exclude,
+    /// All, as the paper sums: a lone leaf shades itself.
+    Include,
+}
+
+/// Which ambient term `_AMBIENT` holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum AmbientTerm {
+    /// k_a of the local density (Luft07 eq. 4).
+    #[default]
+    Luft,
+    /// Transmittance to the sky, averaged over all directions (Beer-Lambert through the density field).
+    Sky,
+}
+
+/// What one metaball stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum GeneratorKind {
+    /// A leaf, weighted by its area with alpha (mean weight 1).
+    #[default]
+    Leaf,
+    /// A leaf, every one with weight 1.
+    LeafCount,
+}
+
+/// Which channels are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Channels {
+    /// `_AMBIENT` and `_SOFT_NORMAL`.
+    #[default]
+    Both,
+    /// `_AMBIENT` only.
+    Ambient,
+    /// `_SOFT_NORMAL` only.
+    Normals,
+}
+
+/// Parameters of the density room.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Params {
+    /// Radius of influence of a leaf, meters (Luft07 eq. 2); nothing said: from the crown's size and the
+    /// number of its leaves.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub radius_m: Option<f64>,
+    /// Density below which a place counts as outside, in units of the plant's median density (tau of Luft07 eq. 3).
+    #[schemars(range(min = 0.0))]
+    pub threshold: f64,
+    /// Density above the threshold from which a place is darkest, in units of the plant's median density
+    /// (d_min of Luft07 eq. 4).
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub darkest_density: f64,
+    /// Ambient coefficient of the darkest places (k_min of Luft07 eq. 4).
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub darkest_ambient: f64,
+    /// How fast light falls off with density (n of Luft07 eq. 4).
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub exponent: f64,
+    /// Whether a leaf's own group counts in the density at its vertices.
+    pub self_leaf: SelfLeaf,
+    /// Ambient term: `luft` or `sky`.
+    pub ambient: AmbientTerm,
+    /// What one metaball stands for.
+    pub generators: GeneratorKind,
+    /// Which channels are written.
+    pub channels: Channels,
+    /// Share of the original normal in the realigned one (Luft07 section 4).
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub blend: f64,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Params {
+            radius_m: None,
+            threshold: 0.1,
+            darkest_density: 2.0,
+            darkest_ambient: 0.1,
+            exponent: 3.0,
+            self_leaf: SelfLeaf::default(),
+            ambient: AmbientTerm::default(),
+            generators: GeneratorKind::default(),
+            channels: Channels::default(),
+            blend: 0.0,
+        }
+    }
+}
+
+impl Params {
+    /// The parameters of a JSON object, with defaults for what it does not name.
+    ///
+    /// # Errors
+    /// [`BakeError::Range`] outside the documented ranges, [`BakeError::Parameter`] for unknown names,
+    /// wrong types and numbers that are not finite.
+    pub fn from_json(params: &Map<String, Value>) -> Result<Params, BakeError> {
+        let value = Value::Object(params.clone());
+        foliar_schema::check_ranges(&crate::schema(), &value)
+            .map_err(|source| BakeError::Range { room: ROOM.into(), source })?;
+        let params: Params = serde_json::from_value(value).map_err(|error| BakeError::Parameter {
+            room: ROOM.into(),
+            place: "params".into(),
+            reason: error.to_string(),
+        })?;
+        params.check()?;
+        Ok(params)
+    }
+
+    /// Refuses what JSON cannot say but Rust can: NaN and infinities, and values out of range.
+    ///
+    /// # Errors
+    /// [`BakeError::Parameter`] with name, number and what would be right.
+    pub fn check(&self) -> Result<(), BakeError> {
+        let radius = self.radius_m.unwrap_or(1.0);
+        let rules: [(&str, f64, bool, &str); 6] = [
+            ("radius_m", radius, radius > 0.0, "above 0 (a leaf's influence, Luft07 eq. 2)"),
+            ("threshold", self.threshold, self.threshold >= 0.0, "0 or above (Luft07 eq. 3)"),
+            ("darkest_density", self.darkest_density, self.darkest_density > 0.0, "above 0 (Luft07 eq. 4)"),
+            ("darkest_ambient", self.darkest_ambient, (0.0..=1.0).contains(&self.darkest_ambient), "from 0 to 1"),
+            ("exponent", self.exponent, self.exponent > 0.0, "above 0 (Luft07 eq. 4)"),
+            ("blend", self.blend, (0.0..=1.0).contains(&self.blend), "from 0 to 1"),
+        ];
+        match rules.into_iter().find(|(_, value, holds, _)| !(value.is_finite() && *holds)) {
+            None => Ok(()),
+            Some((name, value, _, rule)) => Err(BakeError::Parameter {
+                room: ROOM.into(),
+                place: name.into(),
+                reason: format!("is {value}: must be finite and {rule}"),
+            }),
+        }
+    }
+}
