@@ -4,6 +4,7 @@
 mod base;
 mod leaf;
 mod plant;
+pub mod sample;
 
 pub use base::{AlphaMode, Base, Material, Part, Place, Raster};
 pub use leaf::{Leaf, NO_LEAF};
