@@ -1,1 +1,37 @@
-//! Pictures of what was baked
+//! Pictures of what was baked: the lit tree, a channel in false colors, differences and contact
+//! sheets, by ray casting. Nothing here touches a file.
+
+mod camera;
+mod colors;
+mod difference;
+mod error;
+mod legend;
+mod mask;
+mod params;
+mod render;
+mod scene;
+mod shade;
+mod sheet;
+mod text;
+mod texture;
+mod values;
+
+pub use difference::{Difference, difference};
+pub use error::ViewError;
+pub use params::{Background, Ground, Look, Shading, ViewParams};
+pub use render::render;
+pub use sheet::{Panel, bake_sheet, contact_sheet};
+
+use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png};
+
+/// PNG bytes of a picture, the same on every run.
+///
+/// # Errors
+/// [`ViewError::Png`] where the encoder refuses the picture (no pixels).
+pub fn png_bytes(picture: &RgbaImage) -> Result<Vec<u8>, ViewError> {
+    let mut bytes = Vec::new();
+    let encoder =
+        png::PngEncoder::new_with_quality(&mut bytes, png::CompressionType::Default, png::FilterType::Adaptive);
+    encoder.write_image(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgba8)?;
+    Ok(bytes)
+}

@@ -1,0 +1,89 @@
+//! The legend in the lower left corner: name, unit, colors with their numbers.
+
+use crate::colors;
+use crate::text::{self, SMALL, number};
+use crate::values::{Key, Legend};
+use glam::Vec3;
+use image::{Rgba, RgbaImage};
+
+/// Free pixels around the legend and inside it.
+const PAD: u32 = 10;
+/// Size of the bar of colors, pixels.
+pub(crate) const BAR: [u32; 2] = [256, 16];
+
+/// Where the bar's left upper corner lies in a picture of this height.
+pub(crate) fn bar_corner(height: u32) -> [u32; 2] {
+    [2 * PAD, height.saturating_sub(2 * PAD + text::height(SMALL) + 4 + BAR[1])]
+}
+
+/// Draws the legend over the picture; nothing where the picture is too small to hold one.
+pub(crate) fn draw(picture: &mut RgbaImage, legend: &Legend) {
+    let line = text::height(SMALL) + 4;
+    let rows = 3 * line + BAR[1];
+    let most = picture.width().saturating_sub(4 * PAD);
+    if most < BAR[0] || picture.height() < rows + 4 * PAD {
+        return;
+    }
+    let unit = if legend.unit.is_empty() || legend.unit == "1" { String::new() } else { format!(" [{}]", legend.unit) };
+    let title = text::fitted(SMALL, &format!("{}{unit}", legend.name), most);
+    let doc = text::fitted(SMALL, &legend.doc, most);
+    let width = BAR[0].max(text::width(SMALL, &title)).max(text::width(SMALL, &doc)) + 2 * PAD;
+    let [x, bar_y] = bar_corner(picture.height());
+    panel(picture, PAD, bar_y - 2 * line - PAD, width, rows + 2 * PAD);
+    let at = i64::from(x);
+    text::write(picture, SMALL, at, i64::from(bar_y - 2 * line), &title, 255);
+    text::write(picture, SMALL, at, i64::from(bar_y - line), &doc, 190);
+    bar(picture, legend, x, bar_y);
+    numbers(picture, &legend.kind, x, bar_y + BAR[1] + 4);
+}
+
+/// Darkens a rectangle so that light letters stand on it.
+fn panel(picture: &mut RgbaImage, x: u32, y: u32, width: u32, height: u32) {
+    for row in y..(y + height).min(picture.height()) {
+        for column in x..(x + width).min(picture.width()) {
+            let Rgba([r, g, b, a]) = *picture.get_pixel(column, row);
+            picture.put_pixel(column, row, Rgba([r / 4, g / 4, b / 4, a.max(192)]));
+        }
+    }
+}
+
+fn bar(picture: &mut RgbaImage, legend: &Legend, x: u32, y: u32) {
+    for column in 0..BAR[0] {
+        let share = column as f32 / (BAR[0] - 1) as f32;
+        for row in 0..BAR[1] {
+            let color = colors::to_bytes(bar_color(&legend.kind, share, row), 1.0);
+            picture.put_pixel(x + column, y + row, Rgba(color));
+        }
+    }
+}
+
+fn bar_color(kind: &Key, share: f32, row: u32) -> Vec3 {
+    let third = (share * 3.0).min(2.999);
+    let axis = |unit: [Vec3; 3]| unit[third as usize];
+    match kind {
+        Key::Ramp(..) => colors::ramp(share),
+        Key::Diverging(_) => colors::diverging(2.0 * share - 1.0),
+        // Upper half: toward the axis; lower half: away from it.
+        Key::Direction => colors::of_direction(axis(Vec3::AXES) * if row < BAR[1] / 2 { 1.0 } else { -1.0 }),
+        Key::Box => axis(Vec3::AXES) * colors::to_linear(third.fract()),
+        Key::Ids(_) => colors::of_id((share * 31.99) as u32),
+    }
+}
+
+fn numbers(picture: &mut RgbaImage, kind: &Key, x: u32, y: u32) {
+    let words: Vec<String> = match kind {
+        Key::Ramp(low, high) => vec![number(*low), number(low.midpoint(*high)), number(*high)],
+        Key::Diverging(most) => vec![number(-most), "0".into(), format!("+{}", number(*most))],
+        Key::Direction => ["+-X", "+-Y", "+-Z"].map(String::from).into(),
+        Key::Box => ["X", "Y", "Z"].map(String::from).into(),
+        Key::Ids(count) => vec![format!("{count} ids, colors without order")],
+    };
+    let last = words.len().max(2) - 1;
+    for (index, word) in words.iter().enumerate() {
+        let length = text::width(SMALL, word);
+        // First at the left end, last at the right end, others centered.
+        let free = BAR[0].saturating_sub(length);
+        let at = x + free * index as u32 / last as u32;
+        text::write(picture, SMALL, i64::from(at), i64::from(y), word, 235);
+    }
+}

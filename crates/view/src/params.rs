@@ -1,0 +1,151 @@
+//! Parameters of a picture.
+
+use crate::ViewError;
+use foliar_schema::check_ranges;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the tree is lit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Look {
+    /// As the file came: its own normals, the same ambient light everywhere.
+    Plain,
+    /// With what was baked: realigned normals, ambient coefficient.
+    #[default]
+    Baked,
+}
+
+/// What lies behind the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Background {
+    /// A neutral gray gradient.
+    #[default]
+    Studio,
+    /// White.
+    White,
+    /// Black.
+    Black,
+    /// Nothing: alpha 0.
+    Clear,
+}
+
+/// What lies under the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Ground {
+    /// Only the tree's shadow, fading out with distance.
+    #[default]
+    Shadow,
+    /// Nothing.
+    None,
+}
+
+/// Parameters of a picture. Angles around the tree count from +Z (0) over +X (90), as seen from above
+/// counter-clockwise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ViewParams {
+    /// Width of the picture in pixels.
+    #[schemars(range(min = 16, max = 8192))]
+    pub width_px: u32,
+    /// Height of the picture in pixels.
+    #[schemars(range(min = 16, max = 8192))]
+    pub height_px: u32,
+    /// Rays per pixel.
+    #[schemars(range(min = 1, max = 1024))]
+    pub samples: u32,
+    /// How the tree is lit, where no channel is asked for.
+    pub look: Look,
+    /// Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.
+    pub channel: Option<String>,
+    /// Where the camera stands around the tree, degrees.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub azimuth_deg: f64,
+    /// How far the camera stands above the tree's horizon, degrees.
+    #[schemars(range(min = -89.0, max = 89.0))]
+    pub elevation_deg: f64,
+    /// Vertical opening of the camera, degrees.
+    #[schemars(range(min = 1.0, max = 120.0))]
+    pub fov_deg: f64,
+    /// Where the sun stands around the tree, degrees.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub sun_azimuth_deg: f64,
+    /// Height of the sun above the horizon, degrees.
+    #[schemars(range(min = 1.0, max = 90.0))]
+    pub sun_elevation_deg: f64,
+    /// Factor on all light.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1000.0))]
+    pub exposure: f64,
+    /// What lies behind the tree.
+    pub background: Background,
+    /// What lies under the tree.
+    pub ground: Ground,
+}
+
+impl Default for ViewParams {
+    fn default() -> Self {
+        ViewParams {
+            width_px: 960,
+            height_px: 720,
+            samples: 16,
+            look: Look::default(),
+            channel: None,
+            azimuth_deg: 30.0,
+            elevation_deg: 10.0,
+            fov_deg: 30.0,
+            sun_azimuth_deg: 80.0,
+            sun_elevation_deg: 50.0,
+            exposure: 1.0,
+            background: Background::default(),
+            ground: Ground::default(),
+        }
+    }
+}
+
+/// What a picture shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// As [`Look::Plain`].
+    Plain,
+    /// As [`Look::Baked`].
+    Baked,
+    /// A channel or column in false colors, with a legend.
+    Channel(String),
+}
+
+impl ViewParams {
+    /// What these parameters ask for: the channel where there is one, else the look.
+    pub fn shading(&self) -> Shading {
+        match (&self.channel, self.look) {
+            (Some(name), _) => Shading::Channel(name.clone()),
+            (None, Look::Plain) => Shading::Plain,
+            (None, Look::Baked) => Shading::Baked,
+        }
+    }
+
+    /// JSON Schema: flags, files and help come from it.
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(ViewParams).to_value()
+    }
+
+    /// # Errors
+    /// [`ViewError::Range`] names the parameter that is out of range.
+    pub(crate) fn check(&self) -> Result<(), ViewError> {
+        let numbers = [
+            self.azimuth_deg,
+            self.elevation_deg,
+            self.fov_deg,
+            self.sun_azimuth_deg,
+            self.sun_elevation_deg,
+            self.exposure,
+        ];
+        // NaN would become null in JSON, which no range refuses.
+        if numbers.iter().any(|n| !n.is_finite()) {
+            return Err(ViewError::NotFinite);
+        }
+        let value = serde_json::to_value(self).unwrap_or_default();
+        Ok(check_ranges(&ViewParams::schema(), &value)?)
+    }
+}

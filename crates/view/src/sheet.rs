@@ -1,0 +1,106 @@
+//! Contact sheets: pictures side by side with captions.
+
+use crate::text::{self, LARGE, SMALL};
+use crate::{Shading, ViewError, ViewParams, difference, render, values};
+use foliar_bake::Layer;
+use foliar_numerics::CompensatedSum;
+use foliar_plant::Plant;
+use foliar_schema::names;
+use image::{Rgba, RgbaImage};
+
+/// Pixels between pictures and around them.
+const GAP: u32 = 12;
+/// Behind the pictures.
+const PAPER: Rgba<u8> = Rgba([28, 28, 30, 255]);
+
+/// One picture of a sheet.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Line under the picture.
+    pub caption: String,
+    /// The picture.
+    pub picture: RgbaImage,
+}
+
+impl Panel {
+    /// A picture and the line under it.
+    pub fn new(caption: impl Into<String>, picture: RgbaImage) -> Self {
+        Panel { caption: caption.into(), picture }
+    }
+}
+
+/// Panels in rows of `columns` (at least one) under title lines. Cells are as large as the largest
+/// picture; smaller ones stand in their middle; captions that do not fit are cut.
+pub fn contact_sheet(panels: &[Panel], titles: &[String], columns: usize) -> RgbaImage {
+    let columns = columns.clamp(1, panels.len().max(1)) as u32;
+    let rows = (panels.len() as u32).div_ceil(columns);
+    let largest = |size: fn(&RgbaImage) -> u32| panels.iter().map(|p| size(&p.picture)).max().unwrap_or(0);
+    let (cell_width, picture_height) = (largest(RgbaImage::width), largest(RgbaImage::height));
+    let cell_height = picture_height + text::height(SMALL) + 4;
+    let head = GAP + titles.len() as u32 * (text::height(LARGE) + 4);
+    let width = (GAP + columns * (cell_width + GAP)).max(4 * GAP);
+    let mut sheet = RgbaImage::from_pixel(width, head + rows * (cell_height + GAP) + GAP, PAPER);
+    for (line, title) in titles.iter().enumerate() {
+        let y = GAP + line as u32 * (text::height(LARGE) + 4);
+        let words = text::fitted(LARGE, title, width - 2 * GAP);
+        text::write(&mut sheet, LARGE, i64::from(GAP), i64::from(y), &words, if line == 0 { 255 } else { 190 });
+    }
+    for (index, panel) in (0u32..).zip(panels) {
+        let x = GAP + index % columns * (cell_width + GAP);
+        let y = head + index / columns * (cell_height + GAP);
+        let aside = (cell_width - panel.picture.width()) / 2;
+        let down = (picture_height - panel.picture.height()) / 2;
+        image::imageops::overlay(&mut sheet, &panel.picture, i64::from(x + aside), i64::from(y + down));
+        let words = text::fitted(SMALL, &panel.caption, cell_width);
+        text::write(&mut sheet, SMALL, i64::from(x), i64::from(y + picture_height + 4), &words, 220);
+    }
+    sheet
+}
+
+/// Plain, baked, their difference and the ambient coefficient of one tree, with figures. `params.look`
+/// and `params.channel` do not count; without a baked ambient coefficient its panel is left out.
+///
+/// # Errors
+/// As [`render`].
+pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewParams) -> Result<RgbaImage, ViewError> {
+    let plain = render(plant, layers, &Shading::Plain, params)?;
+    let baked = render(plant, layers, &Shading::Baked, params)?;
+    let changed = difference(&plain, &baked)?;
+    let caption = format!(
+        "difference: {:.1} steps of 255 on average over {:.0} % of the picture, at most {:.0}",
+        changed.mean_steps,
+        100.0 * changed.share,
+        changed.max_steps
+    );
+    let mut panels = vec![
+        Panel::new("plain: normals of the file, the same ambient light everywhere", plain),
+        Panel::new("baked: realigned normals, ambient coefficient", baked),
+        Panel::new(caption, changed.picture),
+    ];
+    if let Some(caption) = ambient_figures(plant, layers)? {
+        panels.push(Panel::new(caption, render(plant, layers, &Shading::Channel(names::AMBIENT.into()), params)?));
+    }
+    let triangles: usize = plant.parts().iter().map(|p| p.triangles.len()).sum();
+    let size = plant.size();
+    let facts = format!(
+        "{} leaves, {triangles} triangles, {} x {} x {} m",
+        plant.leaves().len(),
+        text::number(size.x as f32),
+        text::number(size.y as f32),
+        text::number(size.z as f32)
+    );
+    Ok(contact_sheet(&panels, &[title.into(), facts], 2))
+}
+
+/// Least, mean and greatest ambient coefficient over all vertices that have one.
+fn ambient_figures(plant: &Plant, layers: &[&Layer]) -> Result<Option<String>, ViewError> {
+    let arrays = values::ambient(plant, layers)?;
+    let all: Vec<f64> = arrays.into_iter().flatten().flatten().map(|&v| f64::from(v)).collect();
+    if all.is_empty() {
+        return Ok(None);
+    }
+    let mean = all.iter().copied().collect::<CompensatedSum>().value() / all.len() as f64;
+    let low = all.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    Ok(Some(format!("ambient coefficient: {low:.3} to {high:.3}, mean {mean:.3}")))
+}

@@ -1,0 +1,215 @@
+//! What is shown per vertex: the baked channels that light needs, and any channel or column as false colors.
+
+use crate::{ViewError, colors};
+use foliar_bake::{Array, Layer};
+use foliar_plant::Plant;
+use foliar_schema::{Channel, channel, column, names};
+use glam::Vec3;
+
+/// What a legend says.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Legend {
+    /// Name of the channel or column.
+    pub name: String,
+    /// One line about it.
+    pub doc: String,
+    /// Unit of measure.
+    pub unit: String,
+    /// How colors stand for values.
+    pub kind: Key,
+}
+
+/// How colors stand for values.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Key {
+    /// [`colors::ramp`] from the first number to the second.
+    Ramp(f32, f32),
+    /// [`colors::diverging`] from minus this number to plus this number.
+    Diverging(f32),
+    /// [`colors::of_direction`].
+    Direction,
+    /// Components as red, green and blue over the box that the values fill.
+    Box,
+    /// [`colors::of_id`]; so many ids.
+    Ids(usize),
+}
+
+/// Linear colors per part and vertex, and what they mean.
+pub(crate) struct FalseColors {
+    pub colors: Vec<Vec<Vec3>>,
+    pub legend: Legend,
+}
+
+/// The attribute of every part under this name; checked to fit the plant.
+pub(crate) fn attribute<'a>(
+    plant: &Plant,
+    layers: &[&'a Layer],
+    name: &str,
+    width: usize,
+) -> Result<Vec<Option<&'a [f32]>>, ViewError> {
+    let found = |part: &foliar_plant::Part| {
+        let Some(array) = layers.iter().find_map(|layer| layer.attribute(part.place, name)) else { return Ok(None) };
+        let data = array.as_f32().filter(|_| array.width() == width && array.rows() == part.positions.len());
+        data.map(Some).ok_or_else(|| ViewError::Shape {
+            name: name.into(),
+            part: part.name().into(),
+            found: array.rows(),
+            width: array.width(),
+            expected: format!("{} rows of {width} floats", part.positions.len()),
+        })
+    };
+    plant.parts().iter().map(found).collect()
+}
+
+/// Ambient coefficient per part and vertex.
+pub(crate) fn ambient<'a>(plant: &Plant, layers: &[&'a Layer]) -> Result<Vec<Option<&'a [f32]>>, ViewError> {
+    attribute(plant, layers, names::AMBIENT, 1)
+}
+
+/// A channel or column in false colors.
+pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Result<FalseColors, ViewError> {
+    let plain = |s: &str| s.trim_start_matches('_').to_ascii_lowercase();
+    let wanted = plain(name);
+    let channels = layers.iter().flat_map(|layer| layer.attributes.keys()).map(|key| key.name.as_str());
+    if let Some(info) = channels.filter_map(channel).find(|info| plain(info.name) == wanted) {
+        return of_channel(plant, layers, info);
+    }
+    let mut columns = layers.iter().flat_map(|layer| &layer.columns);
+    let is_wanted =
+        |class: &str, property: &str| plain(property) == wanted || plain(&format!("{class}/{property}")) == wanted;
+    match columns.find(|(key, _)| key.class == names::CLASS_LEAF && is_wanted(&key.class, &key.property)) {
+        Some((key, array)) => of_column(plant, &key.class, &key.property, array),
+        None => Err(ViewError::Channel { name: name.into(), known: known(layers) }),
+    }
+}
+
+fn known(layers: &[&Layer]) -> String {
+    let mut names: Vec<String> =
+        layers.iter().flat_map(|layer| layer.attributes.keys().map(|k| k.name.clone())).collect();
+    names.extend(layers.iter().flat_map(|l| l.columns.keys().map(|k| format!("{}/{}", k.class, k.property))));
+    names.sort();
+    names.dedup();
+    if names.is_empty() { "nothing: bake first".into() } else { names.join(", ") }
+}
+
+fn of_channel(plant: &Plant, layers: &[&Layer], info: &Channel) -> Result<FalseColors, ViewError> {
+    let arrays = attribute(plant, layers, info.name, info.width)?;
+    let legend = |kind| Legend { name: info.name.into(), doc: info.doc.into(), unit: info.unit.into(), kind };
+    let is_id = info.step_unit == "id";
+    let rows: Vec<Vec<Option<&[f32]>>> = plant
+        .parts()
+        .iter()
+        .zip(&arrays)
+        .map(|(part, array)| {
+            (0..part.positions.len()).map(|v| array.map(|a| &a[v * info.width..][..info.width])).collect()
+        })
+        .collect();
+    let mut shown = if is_id {
+        ids(&rows, plant.leaves().len(), legend)
+    } else if info.unit_length {
+        paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
+    } else {
+        scalars(&rows, Some((info.min, info.max)), legend)
+    };
+    if info.unit_length {
+        to_rest(plant, &rows, &mut shown);
+    }
+    Ok(shown)
+}
+
+/// Directions of the mesh's frame are shown as they stand in the scene.
+fn to_rest(plant: &Plant, rows: &Rows, shown: &mut FalseColors) {
+    for ((part, rows), shown) in plant.parts().iter().zip(rows).zip(&mut shown.colors) {
+        for (row, color) in rows.iter().zip(shown) {
+            if let Some(unit) = row {
+                let rest = part.normal_to_rest(Vec3::from_slice(unit).as_dvec3());
+                *color = colors::of_direction(rest.as_vec3());
+            }
+        }
+    }
+}
+
+fn of_column(plant: &Plant, class: &str, property: &str, array: &Array) -> Result<FalseColors, ViewError> {
+    let leaves = plant.leaves().len();
+    if array.rows() != leaves {
+        return Err(ViewError::Shape {
+            name: property.into(),
+            part: class.into(),
+            found: array.rows(),
+            width: array.width(),
+            expected: format!("{leaves} rows, one per leaf"),
+        });
+    }
+    let width = array.width();
+    let integers: Option<Vec<f32>> = array.as_i32().map(|data| data.iter().map(|&i| i as f32).collect());
+    let data = array.as_f32().or(integers.as_deref()).unwrap_or_default();
+    let row = |part, v| plant.leaf_of(part, v).map(|leaf| &data[leaf as usize * width..][..width]);
+    let rows: Vec<Vec<Option<&[f32]>>> = plant
+        .parts()
+        .iter()
+        .enumerate()
+        .map(|(index, part)| (0..part.positions.len()).map(|v| row(index, v)).collect())
+        .collect();
+    let info = column(class, property);
+    let (unit, doc) = info.map_or(("", ""), |c| (c.unit, c.doc));
+    let legend = |kind| Legend { name: format!("{class}/{property}"), doc: doc.into(), unit: unit.into(), kind };
+    Ok(match width {
+        1 if unit.contains("id") => ids(&rows, usize::MAX, legend),
+        1 => scalars(&rows, None, legend),
+        3 if unit.starts_with("unit vector") => {
+            paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
+        }
+        3 => boxed(&rows, legend),
+        _ => scalars(&first_only(&rows), None, legend),
+    })
+}
+
+type Rows<'a> = Vec<Vec<Option<&'a [f32]>>>;
+
+fn first_only<'a>(rows: &Rows<'a>) -> Rows<'a> {
+    rows.iter().map(|part| part.iter().map(|row| row.map(|r| &r[..1])).collect()).collect()
+}
+
+fn paint(rows: &Rows, legend: Legend, color: impl Fn(&[f32]) -> Vec3) -> FalseColors {
+    let vertex = |row: &Option<&[f32]>| row.map_or(colors::NO_VALUE, &color);
+    FalseColors { colors: rows.iter().map(|part| part.iter().map(vertex).collect()).collect(), legend }
+}
+
+fn scalars(rows: &Rows, range: Option<(f32, f32)>, legend: impl Fn(Key) -> Legend) -> FalseColors {
+    let (low, high) = range.unwrap_or_else(|| {
+        let (low, high) = extent(rows);
+        (low[0], high[0])
+    });
+    let span = if high > low { high - low } else { 1.0 };
+    paint(rows, legend(Key::Ramp(low, high)), |v| colors::ramp((v[0] - low) / span))
+}
+
+fn boxed(rows: &Rows, legend: impl Fn(Key) -> Legend) -> FalseColors {
+    let (low, high) = extent(rows);
+    let span: [f32; 3] = std::array::from_fn(|c| if high[c] > low[c] { high[c] - low[c] } else { 1.0 });
+    paint(rows, legend(Key::Box), |v| {
+        Vec3::from_array(std::array::from_fn(|c| colors::to_linear(((v[c] - low[c]) / span[c]).clamp(0.0, 1.0))))
+    })
+}
+
+/// Ids from `none` on mean no value.
+fn ids(rows: &Rows, none: usize, legend: impl Fn(Key) -> Legend) -> FalseColors {
+    let all = rows.iter().flatten().flatten().map(|v| v[0] as i64 as usize).filter(|&id| id < none);
+    let count = all.collect::<std::collections::BTreeSet<_>>().len();
+    paint(rows, legend(Key::Ids(count)), |v| {
+        if (v[0] as usize) < none { colors::of_id(v[0] as u32) } else { colors::NO_VALUE }
+    })
+}
+
+/// Least and greatest value of up to three components; zeros where there is none.
+fn extent(rows: &Rows) -> ([f32; 3], [f32; 3]) {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for row in rows.iter().flatten().flatten() {
+        for (c, &value) in row.iter().take(3).enumerate() {
+            low[c] = low[c].min(value);
+            high[c] = high[c].max(value);
+        }
+    }
+    let finite = |v: [f32; 3]| v.map(|x| if x.is_finite() { x } else { 0.0 });
+    (finite(low), finite(high))
+}
