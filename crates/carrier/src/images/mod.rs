@@ -1,13 +1,183 @@
-//! Decoding images (engineer "obj" fills this in).
+//! Pictures: what format bytes really are, decoding to RGBA, encoding to PNG, and the maps that OBJ
+//! materials need (joined alpha, normals from heights).
+
+#[allow(dead_code, unused_imports, reason = "the conversion in the next commit uses them")]
+mod maps;
+
+#[allow(unused_imports, reason = "as above")]
+pub(crate) use maps::{alpha_joined, is_normal_map, normals_from_heights};
 
 use crate::CarrierError;
 use foliar_plant::Raster;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
 
-/// Decodes PNG, JPEG, TIFF, TGA or BMP bytes to RGBA; `name` stands in messages and in the raster.
+/// Widest and highest picture that is decoded.
+const MOST_PIXELS_PER_SIDE: u32 = 32_768;
+
+/// Most memory that decoding a picture may take.
+const MOST_BYTES: u64 = 2 << 30;
+
+/// Deflate makes at most 1032 bytes of one, and a byte of a picture holds at most 8 pixels: a file
+/// that claims more pixels per byte than this is damaged or hostile. The start is for headers.
+const MOST_PIXELS_PER_BYTE: u64 = 1032 * 8;
+
+/// Pixels that any header may claim, however short the file.
+const PIXELS_ALWAYS_ALLOWED: u64 = 1 << 20;
+
+/// What a file's bytes are, whatever its name says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Portable Network Graphics: a core glTF image.
+    Png,
+    /// JPEG: a core glTF image.
+    Jpeg,
+    /// Tagged Image File Format.
+    Tiff,
+    /// Truevision TGA (it has no magic bytes: told by its header).
+    Tga,
+    /// Windows bitmap.
+    Bmp,
+    /// WebP: known, not decoded.
+    Webp,
+    /// Khronos texture, Basis Universal inside: known, not decoded.
+    Ktx,
+    /// OpenEXR: known, no texture.
+    Exr,
+    /// DirectDraw surface: known, not decoded.
+    Dds,
+    /// GIF: known, not decoded.
+    Gif,
+    /// None of these.
+    Unknown,
+}
+
+impl Format {
+    /// Name for messages.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Format::Png => "PNG",
+            Format::Jpeg => "JPEG",
+            Format::Tiff => "TIFF",
+            Format::Tga => "TGA",
+            Format::Bmp => "BMP",
+            Format::Webp => "WebP",
+            Format::Ktx => "KTX",
+            Format::Exr => "EXR",
+            Format::Dds => "DDS",
+            Format::Gif => "GIF",
+            Format::Unknown => "no known picture",
+        }
+    }
+
+    /// MIME type, where it is a core glTF image.
+    pub const fn gltf_mime(self) -> Option<&'static str> {
+        match self {
+            Format::Png => Some("image/png"),
+            Format::Jpeg => Some("image/jpeg"),
+            _ => None,
+        }
+    }
+
+    const fn decoder(self) -> Option<ImageFormat> {
+        match self {
+            Format::Png => Some(ImageFormat::Png),
+            Format::Jpeg => Some(ImageFormat::Jpeg),
+            Format::Tiff => Some(ImageFormat::Tiff),
+            Format::Tga => Some(ImageFormat::Tga),
+            Format::Bmp => Some(ImageFormat::Bmp),
+            _ => None,
+        }
+    }
+}
+
+/// Tells the format by the first bytes.
+pub fn sniff(bytes: &[u8]) -> Format {
+    const MAGIC: &[(&[u8], Format)] = &[
+        (b"\x89PNG\r\n\x1a\n", Format::Png),
+        (b"\xFF\xD8\xFF", Format::Jpeg),
+        (b"II*\0", Format::Tiff),
+        (b"MM\0*", Format::Tiff),
+        (b"\xABKTX ", Format::Ktx),
+        (b"\x76\x2F\x31\x01", Format::Exr),
+        (b"DDS ", Format::Dds),
+        (b"GIF8", Format::Gif),
+        (b"BM", Format::Bmp),
+    ];
+    if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        return Format::Webp;
+    }
+    let known = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, format)| *format);
+    known.unwrap_or(if is_tga(bytes) { Format::Tga } else { Format::Unknown })
+}
+
+/// Whether the 18 bytes of a TGA header make sense together.
+fn is_tga(bytes: &[u8]) -> bool {
+    let Some(header) = bytes.get(..18) else { return false };
+    let word = |at: usize| u16::from_le_bytes([header[at], header[at + 1]]);
+    let (color_map, kind, depth, descriptor) = (header[1], header[2], header[16], header[17]);
+    let mapped = matches!(kind, 1 | 9);
+    let kind_fits = mapped || matches!(kind, 2 | 3 | 10 | 11);
+    kind_fits
+        && (color_map == 1 || (color_map == 0 && !mapped))
+        && matches!(depth, 8 | 15 | 16 | 24 | 32)
+        && word(12) > 0
+        && word(14) > 0
+        && descriptor & 0xC0 == 0
+}
+
+/// Decodes PNG, JPEG, TIFF, TGA or BMP bytes to RGBA, 8 bits each; `name` stands in messages and in
+/// the raster. The format is told by the bytes, not by the name.
 ///
 /// # Errors
 /// [`CarrierError::Input`] for what is none of these, or truncated, or larger than its bytes can hold.
 pub fn decode(bytes: &[u8], name: &str) -> Result<Raster, CarrierError> {
-    let _ = bytes;
-    Err(CarrierError::input(name, "", "not decoded yet", "wait"))
+    let format = sniff(bytes);
+    let Some(decoder) = format.decoder() else {
+        let problem = format!("is {}, not PNG, JPEG, TIFF, TGA or BMP", format.name());
+        return Err(CarrierError::input(name, "byte 0", problem, "convert it to PNG"));
+    };
+    let broken = |error: image::ImageError| {
+        CarrierError::input(name, "", format!("is damaged {}: {error}", format.name()), "export the picture again")
+    };
+    let (width, height) = ImageReader::with_format(Cursor::new(bytes), decoder).into_dimensions().map_err(broken)?;
+    check_size(width, height, bytes.len(), name)?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), decoder);
+    let mut limits = Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(MOST_PIXELS_PER_SIDE), Some(MOST_PIXELS_PER_SIDE));
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let rgba = reader.decode().map_err(broken)?.into_rgba8().into_raw();
+    let has_alpha = rgba.chunks_exact(4).any(|p| p[3] < 255);
+    Ok(Raster { name: name.into(), width, height, rgba, has_alpha })
+}
+
+fn check_size(width: u32, height: u32, bytes: usize, name: &str) -> Result<(), CarrierError> {
+    let pixels = u64::from(width) * u64::from(height);
+    let possible = PIXELS_ALWAYS_ALLOWED + bytes as u64 * MOST_PIXELS_PER_BYTE;
+    let too_large = width.max(height) > MOST_PIXELS_PER_SIDE || pixels * 4 > MOST_BYTES;
+    if pixels > 0 && pixels <= possible && !too_large {
+        return Ok(());
+    }
+    let problem = format!("its header claims {width} x {height} pixels in {bytes} bytes");
+    let remedy = format!("at most {MOST_PIXELS_PER_SIDE} a side and what the bytes can hold; scale it down");
+    Err(CarrierError::input(name, "", problem, remedy))
+}
+
+/// PNG bytes of a raster: RGBA where it has alpha, else RGB. The same raster gives the same bytes.
+///
+/// # Errors
+/// [`CarrierError::Input`] where the raster's length is not width times height times 4.
+pub fn encode_png(raster: &Raster) -> Result<Vec<u8>, CarrierError> {
+    let (pixels, color) = if raster.has_alpha {
+        (raster.rgba.clone(), ExtendedColorType::Rgba8)
+    } else {
+        (raster.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect(), ExtendedColorType::Rgb8)
+    };
+    let mut png = Vec::new();
+    PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
+        .write_image(&pixels, raster.width, raster.height, color)
+        .map_err(|error| CarrierError::input(&raster.name, "", error.to_string(), "report it"))?;
+    Ok(png)
 }

@@ -1,4 +1,15 @@
-//! OBJ and MTL to a glTF document (engineer "obj" fills this in).
+//! OBJ and MTL to a glTF document.
+
+mod file;
+mod number;
+mod polygon;
+mod runs;
+mod scan;
+mod text;
+
+pub use file::{Library, ObjFile, parse};
+pub use runs::Run;
+pub use scan::{Corner, NONE};
 
 use crate::{CarrierError, Document};
 use foliar_schema::{Finding, Import};
