@@ -49,11 +49,8 @@ pub(crate) fn normals_from_heights(heights: &Raster, strength: f64) -> Raster {
 pub(crate) fn alpha_joined(color: Option<&Raster>, mask: &Raster) -> Raster {
     let own = |p: &[u8]| if mask.has_alpha { f64::from(p[3]) } else { luminance(p) };
     let levels: Vec<f64> = mask.rgba.chunks_exact(4).map(own).collect();
-    let mut joined = color.cloned().unwrap_or_else(|| Raster {
-        rgba: vec![255; mask.rgba.len()],
-        has_alpha: false,
-        ..mask.clone()
-    });
+    let mut joined =
+        color.cloned().unwrap_or_else(|| Raster { rgba: vec![255; mask.rgba.len()], has_alpha: false, ..mask.clone() });
     let (width, height) = (joined.width as usize, joined.height as usize);
     for (index, pixel) in joined.rgba.chunks_exact_mut(4).enumerate() {
         let u = ((index % width) as f64 + 0.5) / width as f64;
@@ -122,7 +119,8 @@ mod tests {
     #[test]
     fn a_mask_of_another_size_is_joined() {
         let color = picture(4, 4, |x, y| [x as u8, y as u8, 9, 255]);
-        let mask = picture(2, 2, |x, _| [255 * x as u8; 3].into_iter().chain([255]).collect::<Vec<_>>().try_into().unwrap());
+        let mask =
+            picture(2, 2, |x, _| [255 * x as u8; 3].into_iter().chain([255]).collect::<Vec<_>>().try_into().unwrap());
         let joined = alpha_joined(Some(&color), &mask);
         assert_eq!((joined.width, joined.height, joined.has_alpha), (4, 4, true));
         assert_eq!(&joined.rgba[..4], &[0, 0, 9, 0]);

@@ -99,7 +99,7 @@ pub(crate) fn integer(bytes: &[u8]) -> Option<(i64, usize)> {
         value = value * 10 + i64::from(digit - b'0');
         used += 1;
     }
-    (used > sign).then_some((if bytes[0] == b'-' { -value } else { value }, used))
+    (used > sign).then(|| (if bytes[0] == b'-' { -value } else { value }, used))
 }
 
 #[cfg(test)]
