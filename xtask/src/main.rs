@@ -1,3 +1,15 @@
-//! Chores of the workspace.
+//! Chores of the workspace: see `cargo xtask --help`.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "xtask talks to a person; nothing reads it")]
 
-fn main() {}
+mod cli;
+mod fixtures;
+mod generated;
+mod obj_text;
+mod repo;
+mod run_tests;
+mod tidy;
+mod validator;
+
+fn main() -> std::process::ExitCode {
+    cli::main()
+}

@@ -1,0 +1,55 @@
+//! What xtask is asked.
+
+use crate::{fixtures, generated, run_tests, tidy};
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Chores of the workspace.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask")]
+struct Args {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Debug, Subcommand)]
+enum Chore {
+    /// House rules as code: floors, lengths, first lines, names, references
+    Tidy,
+    /// Writes the generated documents (channel and issue tables, schemas, man pages, completions, README help)
+    Gen {
+        /// Only says what would change, with status 1
+        #[arg(long)]
+        check: bool,
+    },
+    /// Writes fixtures/ from plant::sample
+    Fixtures {
+        /// Only says whether the committed files are what the generator gives, with status 1
+        #[arg(long, conflicts_with = "large")]
+        check: bool,
+        /// Writes an OBJ of 60 MB or more to target/large/ instead, for the reading benchmark
+        #[arg(long)]
+        large: bool,
+    },
+    /// Everything that must pass before work is handed in
+    Test,
+}
+
+/// Runs the chore that the command line names.
+pub fn main() -> ExitCode {
+    let done = match Args::parse().chore {
+        Chore::Tidy => tidy::run(),
+        Chore::Gen { check } => generated::run(check),
+        Chore::Fixtures { check: true, .. } => fixtures::check(),
+        Chore::Fixtures { large: true, .. } => fixtures::write_large().map(|path| println!("{}", path.display())),
+        Chore::Fixtures { .. } => fixtures::write(),
+        Chore::Test => run_tests::run(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Everything that must pass before work is handed in, one step after the other.
+
+use crate::{fixtures, generated, repo, tidy, validator};
+use anyhow::{Result, bail};
+use std::process::Command;
+
+type Step = (&'static str, fn() -> Result<()>);
+
+/// In the order in which a person wants to hear of a fault.
+const STEPS: [Step; 8] = [
+    ("format", || cargo(&["fmt", "--all", "--check"])),
+    ("tidy", tidy::run),
+    ("lints", || cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])),
+    ("documents", || {
+        repo::run(repo::cargo().args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))
+    }),
+    ("generated documents", || generated::run(true)),
+    ("fixtures", fixtures::check),
+    ("tests", tests),
+    ("validator", validator::run),
+];
+
+/// Runs every step, even after one failed, and names those that did.
+pub fn run() -> Result<()> {
+    let mut failed = Vec::new();
+    for (name, step) in STEPS {
+        println!("== {name}");
+        if let Err(error) = step() {
+            eprintln!("error: {name}: {error:#}");
+            failed.push(name);
+        }
+    }
+    if !failed.is_empty() {
+        bail!("{} of {} steps failed: {}", failed.len(), STEPS.len(), failed.join(", "));
+    }
+    println!("all {} steps passed", STEPS.len());
+    Ok(())
+}
+
+/// All tests, on a clean folder of outputs: the validator must not judge yesterday's.
+fn tests() -> Result<()> {
+    let _ = std::fs::remove_dir_all(repo::root().join(validator::OUTPUTS));
+    cargo(&["test", "--workspace", "--quiet"])
+}
+
+fn cargo(arguments: &[&str]) -> Result<()> {
+    let mut command: Command = repo::cargo();
+    repo::run(command.args(arguments))
+}
