@@ -1,10 +1,8 @@
 //! Pictures: what format bytes really are, decoding to RGBA, encoding to PNG, and the maps that OBJ
 //! materials need (joined alpha, normals from heights).
 
-#[allow(dead_code, unused_imports, reason = "the conversion in the next commit uses them")]
 mod maps;
 
-#[allow(unused_imports, reason = "as above")]
 pub(crate) use maps::{alpha_joined, is_normal_map, normals_from_heights};
 
 use crate::CarrierError;

@@ -50,7 +50,6 @@ pub struct ObjFile {
 
 impl ObjFile {
     /// How often something odd stood in the file, and where first.
-    #[allow(dead_code, reason = "findings come in the next commit")]
     pub(crate) fn tally(&self, oddity: Oddity) -> &Tally {
         &self.tallies[oddity as usize]
     }
