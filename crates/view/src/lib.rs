@@ -16,6 +16,9 @@ mod text;
 mod texture;
 mod values;
 
+#[cfg(test)]
+mod tests;
+
 pub use difference::{Difference, difference};
 pub use error::ViewError;
 pub use params::{Background, Ground, Look, Shading, ViewParams};

@@ -69,6 +69,8 @@ struct Tracer<'a> {
 struct Pixel {
     seed: u32,
     shadows: [Shadow; 2],
+    /// What the last ray met.
+    last: Option<Hit>,
 }
 
 /// The last shadow ray's answer and how many samples have used it.
@@ -116,7 +118,7 @@ impl<'a> Tracer<'a> {
         let seed = colors::mix(colors::mix(x).wrapping_add(y));
         let covered = self.mask.covers(x, y);
         let turn = Vec2::new((seed & 0xFFFF) as f32, (seed >> 16) as f32) / 65536.0;
-        let mut pixel = Pixel { seed, shadows: [Shadow::default(); 2] };
+        let mut pixel = Pixel { seed, shadows: [Shadow::default(); 2], last: None };
         let mut sum = Vec4::ZERO;
         for (index, (offset, _)) in self.samples.iter().enumerate() {
             let inside = (offset + turn).fract();
@@ -135,7 +137,9 @@ impl<'a> Tracer<'a> {
     fn sample(&self, pixel: &mut Pixel, index: usize, direction: Vec3, covered: bool) -> Vec4 {
         let beam = Beam { origin: self.camera.eye, direction, reach: f32::INFINITY };
         let stops = |hit: &Hit| self.scene.stops(hit, || self.chance(pixel.seed, index, hit.triangle));
-        match if covered { self.scene.rays.nearest(&beam, stops) } else { None } {
+        let hit = if covered { self.scene.rays.nearest(&beam, pixel.last.as_ref(), stops) } else { None };
+        pixel.last = hit.or(pixel.last);
+        match hit {
             Some(hit) if self.scene.legend.is_some() => self.scene.false_color(&hit).extend(1.0),
             Some(hit) => self.lit(pixel, index, &beam, &hit).extend(1.0),
             None if self.ground => Vec3::ZERO.extend(self.ground_shadow(pixel, index, direction)),
