@@ -1,5 +1,7 @@
 //! A glTF as it is patched: the JSON with its order kept, and the bytes of its buffers.
 
+use crate::{CarrierError, Selection, output};
+use foliar_plant::Place;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -12,6 +14,8 @@ pub struct Document {
     pub buffers: Vec<Vec<u8>>,
     /// Folder that relative URIs in `json` start from; `None` where nothing lies in files.
     pub folder: Option<PathBuf>,
+    /// What of it is baked; a master remembers it.
+    pub selection: Selection,
 }
 
 /// No items: what a missing list reads as.
@@ -23,8 +27,30 @@ impl Document {
         self.json.get(name).and_then(Value::as_array).map_or(NONE, Vec::as_slice)
     }
 
+    /// The bytes of one GLB, URIs as they stand.
+    ///
+    /// # Errors
+    /// [`CarrierError::Input`] above 4 GiB.
+    pub fn to_glb(&self) -> Result<Vec<u8>, CarrierError> {
+        output::glb(self.clone(), "GLB")
+    }
+
     /// One item of a list at the root.
     pub fn item(&self, list: &str, index: usize) -> Option<&Value> {
         self.list(list).get(index)
     }
+}
+
+/// The number at `key`, where it is a whole number that an index or length can be.
+pub(crate) fn index_of(value: &Value, key: &str) -> Option<usize> {
+    value.get(key).and_then(Value::as_u64).and_then(|n| usize::try_from(n).ok())
+}
+
+/// All primitives with their places.
+pub(crate) fn primitives(document: &Document) -> impl Iterator<Item = (Place, &Value)> {
+    document.list("meshes").iter().enumerate().flat_map(|(mesh, value)| {
+        let list = value.get("primitives").and_then(Value::as_array);
+        let place = move |primitive| Place { mesh: mesh as u32, primitive: primitive as u32 };
+        list.into_iter().flatten().enumerate().map(move |(index, primitive)| (place(index), primitive))
+    })
 }

@@ -5,19 +5,47 @@
 //! other way: [`assemble`] puts layers onto the base, additively, and [`write()`] commits the bytes,
 //! all or nothing.
 
+mod accessor;
+mod assemble;
+mod container;
 mod document;
 mod error;
+mod extract;
 pub mod images;
+mod instances;
+mod layer_file;
+mod lod;
+mod materials;
+mod neutral;
+mod notes;
 pub mod obj;
+mod output;
 pub mod paths;
+mod read;
+mod rebase;
+mod scene;
+mod takeout;
+mod trees;
+mod triangles;
+mod uvs;
 
 pub use document::Document;
 pub use error::CarrierError;
+pub use output::{Step, write_files_with};
 
 use foliar_bake::Layer;
 use foliar_plant::Base;
 use foliar_schema::{Finding, Import};
 use std::path::{Path, PathBuf};
+
+/// What of a document is baked.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Scene by number; nothing said means the file's default scene.
+    pub scene: Option<u32>,
+    /// Node by name, with everything below it; nothing said means all of the scene.
+    pub node: Option<String>,
+}
 
 /// What kind of file an asset came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,8 +118,7 @@ pub fn read(path: &Path, import: &Import) -> Result<Asset, CarrierError> {
 /// # Errors
 /// [`CarrierError`] with file, place and remedy.
 pub fn read_bytes(bytes: Vec<u8>, name: &str, folder: &Path, import: &Import) -> Result<Asset, CarrierError> {
-    let _ = (bytes, folder, import);
-    Err(CarrierError::input(name, "", "reading comes in the next commit", "wait"))
+    read::asset(&bytes, name, folder, import)
 }
 
 /// Puts layers onto a base: additive, in one canonical order whatever the order of `layers`. Rows
@@ -100,8 +127,7 @@ pub fn read_bytes(bytes: Vec<u8>, name: &str, folder: &Path, import: &Import) ->
 /// # Errors
 /// [`CarrierError::Mismatch`] for a layer that does not fit.
 pub fn assemble(base: &Document, layers: &[Layer]) -> Result<(Document, Vec<Finding>), CarrierError> {
-    let _ = layers;
-    Ok((base.clone(), Vec::new()))
+    assemble::assemble(base, layers)
 }
 
 /// Refuses a layer that was baked from another base: its record's `reads.base` must be `base_hash`.
@@ -109,8 +135,15 @@ pub fn assemble(base: &Document, layers: &[Layer]) -> Result<(Document, Vec<Find
 /// # Errors
 /// [`CarrierError::Mismatch`].
 pub fn check_layer(layer: &Layer, base_hash: &str) -> Result<(), CarrierError> {
-    let _ = (layer, base_hash);
-    Ok(())
+    match layer.record.reads.get("base") {
+        Some(read) if read != base_hash => Err(CarrierError::mismatch(
+            &layer.record.room,
+            "",
+            format!("it was baked from the base {read}, this one is {base_hash}"),
+            "bake it again from this base",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The bytes of a document at `path`, by its ending: `.gltf` gives `STEM.bin` and the JSON after it,
@@ -119,8 +152,7 @@ pub fn check_layer(layer: &Layer, base_hash: &str) -> Result<(), CarrierError> {
 /// # Errors
 /// [`CarrierError`] where a URI cannot be rebased.
 pub fn encode(document: &Document, path: &Path) -> Result<Vec<OutputFile>, CarrierError> {
-    let _ = (document, path);
-    Ok(Vec::new())
+    output::encode(document, path)
 }
 
 /// Writes files all or nothing: each to a temporary file beside its target, fsync, then renamed in
@@ -129,14 +161,12 @@ pub fn encode(document: &Document, path: &Path) -> Result<Vec<OutputFile>, Carri
 /// # Errors
 /// [`CarrierError::Output`]; what was there before is intact.
 pub fn write_files(files: &[OutputFile]) -> Result<Outcome, CarrierError> {
-    let _ = files;
-    Ok(Outcome::Unchanged)
+    output::write_files(files)
 }
 
 /// Whether [`write_files`] would leave everything untouched.
 pub fn is_unchanged(files: &[OutputFile]) -> bool {
-    let _ = files;
-    false
+    output::is_unchanged(files)
 }
 
 /// [`encode`] and [`write_files`] in one.
@@ -153,8 +183,7 @@ pub fn write(document: &Document, path: &Path) -> Result<Outcome, CarrierError> 
 /// # Errors
 /// [`CarrierError::Input`] where a record cannot be serialized.
 pub fn layer_to_bytes(layer: &Layer) -> Result<Vec<u8>, CarrierError> {
-    let _ = layer;
-    Ok(Vec::new())
+    layer_file::to_bytes(layer)
 }
 
 /// Reads a layer file; `name` stands in messages.
@@ -162,6 +191,5 @@ pub fn layer_to_bytes(layer: &Layer) -> Result<Vec<u8>, CarrierError> {
 /// # Errors
 /// [`CarrierError::Input`] with what is wrong and what would be right.
 pub fn layer_from_bytes(bytes: &[u8], name: &str) -> Result<Layer, CarrierError> {
-    let _ = bytes;
-    Err(CarrierError::input(name, "", "reading comes in the next commit", "wait"))
+    layer_file::from_bytes(bytes, name)
 }

@@ -1,0 +1,103 @@
+//! Layers on disk: safetensors, `attr/{mesh}/{primitive}/NAME` and `table/{class}/{property}`, with
+//! record and roles as JSON under one metadata key (several keys would change order from run to run).
+
+use crate::CarrierError;
+use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
+use foliar_plant::Place;
+use foliar_schema::{Record, Role, names};
+use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+const BAKE_AGAIN: &str = "bake the layer again";
+
+/// What stands under the metadata key.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    record: Record,
+    /// Role by `mesh/primitive`.
+    #[serde(default)]
+    roles: BTreeMap<String, Role>,
+}
+
+/// The bytes of a layer.
+pub(crate) fn to_bytes(layer: &Layer) -> Result<Vec<u8>, CarrierError> {
+    let fail = |problem: String| CarrierError::input(&layer.record.room, "", problem, "report it: a fault of foliar");
+    let mut views = BTreeMap::new();
+    for (key, array) in &layer.attributes {
+        let name = format!("attr/{}/{}/{}", key.place.mesh, key.place.primitive, key.name);
+        views.insert(name, view(array).map_err(|e| fail(e.to_string()))?);
+    }
+    for (key, array) in &layer.columns {
+        let name = format!("table/{}/{}", key.class, key.property);
+        views.insert(name, view(array).map_err(|e| fail(e.to_string()))?);
+    }
+    let roles = layer.roles.iter().map(|(place, role)| (format!("{}/{}", place.mesh, place.primitive), *role));
+    let header = Header { record: layer.record.clone(), roles: roles.collect() };
+    let header = serde_json::to_string(&header).map_err(|e| fail(e.to_string()))?;
+    let metadata = [(names::LAYER_METADATA_KEY.to_string(), header)].into_iter().collect();
+    safetensors::serialize(views, Some(metadata)).map_err(|e| fail(e.to_string()))
+}
+
+fn view(array: &Array) -> Result<TensorView<'_>, safetensors::SafeTensorError> {
+    let shape = if array.width() == 1 { vec![array.rows()] } else { vec![array.rows(), array.width()] };
+    let kind = if array.as_f32().is_some() { Dtype::F32 } else { Dtype::I32 };
+    TensorView::new(kind, shape, array.bytes())
+}
+
+/// Reads a layer back.
+pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError> {
+    let fail = |place: &str, problem: String| CarrierError::input(file, place, problem, BAKE_AGAIN);
+    let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|e| fail("", format!("no layer: {e}")))?;
+    let tensors = SafeTensors::deserialize(bytes).map_err(|e| fail("", format!("no layer: {e}")))?;
+    let header = metadata.metadata().as_ref().and_then(|m| m.get(names::LAYER_METADATA_KEY));
+    let header = header.ok_or_else(|| fail("__metadata__", format!("no key {:?}", names::LAYER_METADATA_KEY)))?;
+    let header: Header = serde_json::from_str(header).map_err(|e| fail("__metadata__/foliar", e.to_string()))?;
+    let mut layer =
+        Layer { record: header.record, attributes: BTreeMap::new(), columns: BTreeMap::new(), roles: BTreeMap::new() };
+    for (key, role) in header.roles {
+        let place = place_of(&key).ok_or_else(|| fail("roles", format!("{key:?} is no mesh/primitive")))?;
+        layer.roles.insert(place, role);
+    }
+    for name in metadata.offset_keys() {
+        let tensor = tensors.tensor(&name).map_err(|e| fail(&name, e.to_string()))?;
+        let array = array(&tensor).map_err(|problem| fail(&name, problem))?;
+        put(&mut layer, &name, array).ok_or_else(|| {
+            fail(&name, "no name of a layer's array (attr/MESH/PRIMITIVE/NAME or table/CLASS/PROPERTY)".into())
+        })?;
+    }
+    Ok(layer)
+}
+
+fn place_of(text: &str) -> Option<Place> {
+    let (mesh, primitive) = text.split_once('/')?;
+    Some(Place { mesh: mesh.parse().ok()?, primitive: primitive.parse().ok()? })
+}
+
+fn put(layer: &mut Layer, name: &str, array: Array) -> Option<()> {
+    if let Some(rest) = name.strip_prefix("attr/") {
+        let (mesh, rest) = rest.split_once('/')?;
+        let (primitive, name) = rest.split_once('/')?;
+        let place = Place { mesh: mesh.parse().ok()?, primitive: primitive.parse().ok()? };
+        layer.attributes.insert(AttributeKey { place, name: name.into() }, array);
+    } else {
+        let (class, property) = name.strip_prefix("table/")?.split_once('/')?;
+        layer.columns.insert(ColumnKey { class: class.into(), property: property.into() }, array);
+    }
+    Some(())
+}
+
+/// Copies numbers out, so that it does not matter where a writer aligned them.
+fn array(tensor: &TensorView) -> Result<Array, String> {
+    let width = match tensor.shape() {
+        [_] => 1,
+        [_, width] if *width > 0 => *width,
+        shape => return Err(format!("shape {shape:?} must be [rows] or [rows, width]")),
+    };
+    let words = tensor.data().chunks_exact(4).map(|b| [b[0], b[1], b[2], b[3]]);
+    match tensor.dtype() {
+        Dtype::F32 => Ok(Array::F32 { width, data: words.map(f32::from_le_bytes).collect() }),
+        Dtype::I32 => Ok(Array::I32 { width, data: words.map(i32::from_le_bytes).collect() }),
+        other => Err(format!("numbers of type {other:?} must be F32 or I32")),
+    }
+}

@@ -1,0 +1,178 @@
+//! Undoing what assembling did, by the notes that it left. Where a tool has rearranged the file since,
+//! foliar's attributes, tables and extension go all the same; bytes that cannot be told apart stay.
+
+use super::Contents;
+use super::layers::feature;
+use crate::Document;
+use crate::document::index_of;
+use crate::notes::{KEPT, LISTS, PROPERTY_TABLES, id_names};
+use crate::output::set_byte_lengths;
+use foliar_schema::names;
+use serde_json::{Map, Value};
+use std::collections::BTreeSet;
+
+/// Object of a schema that foliar may have made.
+const SCHEMA: &str = "/extensions/EXT_structural_metadata/schema";
+
+/// Takes everything of foliar out of a document.
+pub(super) fn strip(document: &mut Document, contents: &Contents) {
+    let exact = is_as_assembled(document, contents);
+    let writes: BTreeSet<&str> =
+        contents.extension.records.iter().flat_map(|r| &r.writes).map(String::as_str).collect();
+    let meshes = document.json.get_mut("meshes").and_then(Value::as_array_mut);
+    for mesh in meshes.into_iter().flatten() {
+        let primitives = mesh.get_mut("primitives").and_then(Value::as_array_mut);
+        for primitive in primitives.into_iter().flatten() {
+            strip_primitive(primitive, contents, &writes);
+        }
+    }
+    strip_metadata(&mut document.json, contents, &writes);
+    for (container, key) in [("/extensions", names::EXTENSION), ("/asset/extras", names::EXTENSION)] {
+        if let Some(object) = document.json.pointer_mut(container).and_then(Value::as_object_mut) {
+            object.shift_remove(key);
+        }
+    }
+    if exact {
+        cut(document, contents);
+    } else if let Some(used) = document.json.get_mut("extensionsUsed").and_then(Value::as_array_mut) {
+        used.retain(|name| name != names::EXTENSION);
+    }
+    for pointer in contents.notes.created.iter().rev() {
+        remove_if_empty(&mut document.json, pointer);
+    }
+}
+
+/// Whether everything after the base's own items is foliar's, so that it can be cut off.
+fn is_as_assembled(document: &Document, contents: &Contents) -> bool {
+    let notes = &contents.notes;
+    let length = |pointer: &str| notes.lengths.get(pointer).copied().unwrap_or(0);
+    let (accessors, views) = (length("/accessors"), length("/bufferViews"));
+    let ours = |view: &Value| {
+        let name = view.get("name").and_then(Value::as_str);
+        name.is_some_and(|n| n.starts_with(names::VIEW_PREFIX)) && index_of(view, "buffer") == Some(0)
+    };
+    let byte_length = notes.byte_length.unwrap_or(0);
+    let inside = |view: &Value| {
+        let end = index_of(view, "byteOffset").unwrap_or(0).checked_add(index_of(view, "byteLength").unwrap_or(0));
+        index_of(view, "buffer") != Some(0) || end.is_some_and(|end| end <= byte_length)
+    };
+    let all_views = document.list("bufferViews");
+    let all_accessors = document.list("accessors");
+    contents.extension.base.contains_key("lengths")
+        && accessors <= all_accessors.len()
+        && views <= all_views.len()
+        && document.buffers.first().is_none_or(|b| byte_length <= b.len())
+        && document.list("buffers").len() == length("/buffers").max(1)
+        && all_views[views..].iter().all(ours)
+        && all_views[..views].iter().all(inside)
+        && all_accessors[accessors..].iter().all(|a| index_of(a, "bufferView").is_some_and(|v| v >= views))
+}
+
+/// Cuts lists and buffer back to what they were.
+fn cut(document: &mut Document, contents: &Contents) {
+    for pointer in LISTS.iter().filter(|p| **p != PROPERTY_TABLES) {
+        let key = pointer.trim_start_matches('/');
+        let Some(root) = document.json.as_object_mut() else { return };
+        match contents.notes.lengths.get(*pointer) {
+            Some(length) => {
+                if let Some(list) = root.get_mut(key).and_then(Value::as_array_mut) {
+                    list.truncate(*length);
+                }
+            }
+            None => {
+                root.shift_remove(key);
+            }
+        }
+    }
+    match contents.notes.byte_length {
+        Some(length) => {
+            document.buffers.iter_mut().take(1).for_each(|b| b.truncate(length));
+            set_byte_lengths(document);
+        }
+        None => document.buffers.clear(),
+    }
+}
+
+fn strip_primitive(primitive: &mut Value, contents: &Contents, writes: &BTreeSet<&str>) {
+    let extension = primitive.get("extensions").and_then(|e| e.get(names::EXTENSION));
+    let kept: Vec<String> = extension
+        .and_then(|e| e.get(KEPT)?.as_array())
+        .into_iter()
+        .flatten()
+        .filter_map(|k| k.as_str().map(str::to_string))
+        .collect();
+    for name in writes {
+        let attribute = match id_names(name) {
+            Some((label, _)) => take_feature(primitive, &label),
+            None => Some(contents.name(name).to_string()),
+        };
+        let attributes = primitive.get_mut("attributes").and_then(Value::as_object_mut);
+        if let (Some(attributes), Some(attribute)) = (attributes, attribute) {
+            attributes.shift_remove(&attribute);
+        }
+    }
+    let Some(primitive) = primitive.as_object_mut() else { return };
+    for container in ["extensions", "extras"] {
+        let Some(object) = primitive.get_mut(container).and_then(Value::as_object_mut) else { continue };
+        let mut touched = object.shift_remove(names::EXTENSION).is_some();
+        if container == "extensions" {
+            touched |= remove_member_if_empty(object, names::MESH_FEATURES);
+        }
+        if touched && object.is_empty() && !kept.iter().any(|k| k == container) {
+            primitive.shift_remove(container);
+        }
+    }
+}
+
+/// Removes the feature ids of a label; gives the name of their attribute.
+fn take_feature(primitive: &mut Value, label: &str) -> Option<String> {
+    let number = index_of(feature(primitive, label)?, "attribute")?;
+    let features = primitive.get_mut("extensions")?.get_mut(names::MESH_FEATURES)?.as_object_mut()?;
+    let list = features.get_mut("featureIds")?.as_array_mut()?;
+    let last = list.iter().rposition(|f| f.get("label").is_some_and(|l| l == label))?;
+    list.remove(last);
+    if list.is_empty() {
+        features.shift_remove("featureIds");
+    }
+    Some(format!("{}{number}", names::FEATURE_ID_PREFIX))
+}
+
+fn remove_member_if_empty(object: &mut Map<String, Value>, key: &str) -> bool {
+    let empty = object.get(key).and_then(Value::as_object).is_some_and(Map::is_empty);
+    if empty {
+        object.shift_remove(key);
+    }
+    empty
+}
+
+fn remove_if_empty(json: &mut Value, pointer: &str) {
+    let Some((parent, key)) = pointer.rsplit_once('/') else { return };
+    if let Some(object) = json.pointer_mut(parent).and_then(Value::as_object_mut) {
+        remove_member_if_empty(object, key);
+    }
+}
+
+/// Removes foliar's classes and tables.
+fn strip_metadata(json: &mut Value, contents: &Contents, writes: &BTreeSet<&str>) {
+    let classes: BTreeSet<&str> =
+        writes.iter().filter_map(|w| w.split_once('/')).map(|(class, _)| contents.name(class)).collect();
+    let ours = |class: Option<&Value>| class.and_then(Value::as_str).is_some_and(|c| classes.contains(c));
+    let Some(metadata) = json.pointer_mut("/extensions/EXT_structural_metadata").and_then(Value::as_object_mut) else {
+        return;
+    };
+    if let Some(tables) = metadata.get_mut("propertyTables").and_then(Value::as_array_mut) {
+        tables.retain(|table| !ours(table.get("class")));
+        if tables.is_empty() && !contents.notes.lengths.contains_key(PROPERTY_TABLES) {
+            metadata.shift_remove("propertyTables");
+        }
+    }
+    let Some(schema) = metadata.get_mut("schema").and_then(Value::as_object_mut) else { return };
+    if let Some(all) = schema.get_mut("classes").and_then(Value::as_object_mut) {
+        classes.iter().for_each(|class| {
+            all.shift_remove(*class);
+        });
+    }
+    if contents.notes.created.iter().any(|pointer| pointer == SCHEMA) {
+        schema.shift_remove("id");
+    }
+}

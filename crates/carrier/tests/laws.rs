@@ -1,0 +1,39 @@
+//! Laws 1 (base untouched) and 3 (idempotent), over real files.
+
+mod common;
+use common::*;
+use foliar_carrier::{Document, assemble};
+
+/// Assembles, reads back, and demands the base and the layers as they were.
+fn round_trip(asset: &foliar_carrier::Asset) -> Document {
+    let layers = layers_for(asset);
+    let (master, _) = assemble(&asset.document, &layers).unwrap();
+    assert_contains(&asset.document.json, &master.json, "");
+    for (base, full) in asset.document.buffers.iter().zip(&master.buffers) {
+        assert!(full.starts_with(base), "bytes of the base changed");
+    }
+    let bytes = master.to_glb().unwrap();
+    let back = foliar_carrier::read_bytes(
+        bytes.clone(),
+        "back.glb",
+        asset.document.folder.as_deref().unwrap_or(std::path::Path::new("")),
+        &foliar_schema::Import::default(),
+    )
+    .unwrap();
+    assert_eq!(back.layers, layers);
+    assert_eq!(back.base_hash, asset.base_hash);
+    assert_eq!(back.document.to_glb().unwrap(), asset.document.to_glb().unwrap(), "stripping gives the base");
+    let mut reversed = back.layers.clone();
+    reversed.reverse();
+    let again = assemble(&back.document, &reversed).unwrap().0.to_glb().unwrap();
+    assert!(again == bytes, "baking twice gives the same file");
+    master
+}
+
+#[test]
+fn every_shared_file_survives_layers() {
+    for name in SHARED {
+        let Some(asset) = read_shared(name) else { return };
+        round_trip(&asset);
+    }
+}
