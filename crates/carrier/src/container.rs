@@ -207,7 +207,7 @@ pub(crate) fn read_uri(
     if let Some(data) = uri.strip_prefix("data:") {
         return decode_data_uri(data).map_err(|problem| CarrierError::input(file, place, problem, EXPORT_AGAIN));
     }
-    let path = paths::resolve(uri, folder, &import.search, file)?;
+    let path = paths::resolve_at(uri, folder, &import.search, file, place)?;
     let bytes = std::fs::read(&path).map_err(|source| CarrierError::Open {
         file: path.display().to_string(),
         source,

@@ -1,5 +1,7 @@
 //! Laws 1 (base untouched) and 3 (idempotent), over real files.
 
+#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "helpers of tests are tests")]
+
 mod common;
 use common::*;
 use foliar_carrier::{Document, assemble};

@@ -123,7 +123,7 @@ pub(crate) fn document(pieces: &[Piece], materials: Vec<Value>, images: &[Image]
     json["accessors"] = Value::Array(builder.accessors);
     json["bufferViews"] = Value::Array(builder.views);
     json["buffers"] = json!([{ "byteLength": builder.bytes.len() }]);
-    Document { json, buffers: vec![builder.bytes], folder: None }
+    Document { json, buffers: vec![builder.bytes], ..Document::default() }
 }
 
 fn image_json(builder: &mut Builder, image: &Image) -> Value {
