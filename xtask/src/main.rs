@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "xtask talks to a person; nothing reads it")]
 
 mod cli;
+mod faults;
 mod fixtures;
 mod generated;
 mod obj_text;

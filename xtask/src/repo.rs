@@ -57,3 +57,8 @@ fn missing(command: &Command) -> String {
     let program = command.get_program().to_string_lossy().into_owned();
     format!("{program} could not be started: is it installed? (.ci/run installs what is missing on Debian)")
 }
+
+/// Folder of shared test data: FOLIAR_SHARED, else ../shared beside the repository.
+pub fn shared() -> PathBuf {
+    std::env::var_os("FOLIAR_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from)
+}

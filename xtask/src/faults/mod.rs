@@ -1,0 +1,95 @@
+//! Planted faults: applies each patch of xtask/faults in a scratch copy, and demands that the command
+//! it names goes red, and is green without it. A law without a planted fault does not count as tested.
+
+mod copy;
+mod fault;
+
+use crate::repo;
+use anyhow::{Context, Result, bail};
+use copy::Copy;
+use fault::Fault;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What came of a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    /// The command went red: the fault was seen.
+    Caught,
+    /// The command stayed green.
+    Missed,
+    /// The patch does not apply any more.
+    Stale,
+    /// The code with the fault does not build: that proves nothing.
+    Unbuilt,
+    /// The command is red without the fault.
+    RedBefore,
+}
+
+impl Verdict {
+    fn words(self) -> &'static str {
+        match self {
+            Verdict::Caught => "caught",
+            Verdict::Missed => "MISSED: the command stays green",
+            Verdict::Stale => "STALE: the patch does not apply",
+            Verdict::Unbuilt => "UNBUILT: does not compile, so proves nothing",
+            Verdict::RedBefore => "RED BEFORE: the command fails without the fault",
+        }
+    }
+}
+
+/// Plants every fault whose name contains `name`, and prints what came of it.
+pub fn run(name: Option<&str>) -> Result<()> {
+    let faults = all()?;
+    let chosen: Vec<&Fault> = faults.iter().filter(|f| name.is_none_or(|n| f.name.contains(n))).collect();
+    if chosen.is_empty() {
+        bail!("no fault is named like {:?}; there are {}", name.unwrap_or(""), names(&faults));
+    }
+    let copy = Copy::refresh()?;
+    let mut green: BTreeMap<&[String], bool> = BTreeMap::new();
+    let mut verdicts = Vec::new();
+    for fault in chosen {
+        let before = green.get(fault.command.as_slice()).copied();
+        let is_green = match before {
+            Some(known) => known,
+            None => copy.passes(&fault.command)?,
+        };
+        green.insert(&fault.command, is_green);
+        let verdict = if is_green { plant(&copy, fault)? } else { Verdict::RedBefore };
+        println!("{:<32} {:<28} {}", fault.name, fault.law, verdict.words());
+        verdicts.push(verdict);
+    }
+    let caught = verdicts.iter().filter(|v| **v == Verdict::Caught).count();
+    if caught < verdicts.len() {
+        bail!("{} of {} planted faults were not caught", verdicts.len() - caught, verdicts.len());
+    }
+    println!("all {caught} planted faults were caught");
+    Ok(())
+}
+
+/// Every fault, by name.
+fn all() -> Result<Vec<Fault>> {
+    let folder = repo::root().join("xtask/faults");
+    let entries = std::fs::read_dir(&folder).context("xtask/faults cannot be listed")?;
+    let mut patches: Vec<PathBuf> = entries.map(|e| Ok(e?.path())).collect::<Result<_>>()?;
+    patches.retain(|p| p.extension().is_some_and(|e| e == "patch"));
+    patches.sort();
+    patches.iter().map(|path: &PathBuf| Fault::read(Path::new(path))).collect()
+}
+
+fn plant(copy: &Copy, fault: &Fault) -> Result<Verdict> {
+    if !copy.apply(fault)? {
+        return Ok(Verdict::Stale);
+    }
+    let verdict = match copy.builds(&fault.command)? {
+        false => Verdict::Unbuilt,
+        true if copy.passes(&fault.command)? => Verdict::Missed,
+        true => Verdict::Caught,
+    };
+    copy.restore(fault)?;
+    Ok(verdict)
+}
+
+fn names(faults: &[Fault]) -> String {
+    faults.iter().map(|f| f.name.as_str()).collect::<Vec<_>>().join(", ")
+}
