@@ -62,6 +62,16 @@ pub enum PlantError {
 /// Largest coordinate: its fourth power is still a finite f64 and its square a finite f32.
 const LARGEST_COORDINATE: f64 = 1e15;
 
+impl Base {
+    /// Whether every position is finite and every index in range: what steps before [`Plant::new`] rely on.
+    ///
+    /// # Errors
+    /// [`PlantError`] names the first part and vertex that break an invariant.
+    pub fn check(&self) -> Result<(), PlantError> {
+        self.parts.iter().enumerate().try_for_each(|(index, part)| check_part(index, part, self.position_count))
+    }
+}
+
 /// A base with its structure. Every position is finite, every index in range, every area 0 or above.
 #[derive(Clone, Debug, Default)]
 pub struct Plant {
@@ -77,9 +87,7 @@ impl Plant {
     /// # Errors
     /// [`PlantError`] names the first part, vertex or leaf that breaks an invariant.
     pub fn new(base: Base, structure: Structure) -> Result<Plant, PlantError> {
-        for (index, part) in base.parts.iter().enumerate() {
-            check_part(index, part, base.position_count)?;
-        }
+        base.check()?;
         check_structure(&base, &structure)?;
         let (center, size) = frame(&base, &structure);
         Ok(Plant { base, structure, center, size })

@@ -27,6 +27,7 @@ struct Node {
 }
 
 impl Node {
+    #[inline]
     fn distance_squared(&self, point: Vec3) -> f32 {
         (self.low - point).max(point - self.high).max(Vec3::ZERO).length_squared()
     }
@@ -71,6 +72,11 @@ impl TriangleTree {
         tree
     }
 
+    /// Whether there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
     /// The nearest point, or `None` where there are no triangles. Of triangles at exactly the same
     /// distance any may be named, always the same one for the same tree.
     pub fn closest(&self, point: Vec3) -> Option<Closest> {
@@ -98,13 +104,16 @@ impl TriangleTree {
                 self.scan_leaf(node, point, &mut limit, &mut best);
                 continue;
             }
-            let children = [node.first, node.first + 1].map(|c| (c, self.nodes[c as usize].distance_squared(point)));
-            let (near, far) = if children[0].1 <= children[1].1 { (0, 1) } else { (1, 0) };
-            for child in [children[far], children[near]] {
-                if child.1 < limit {
-                    stack[depth] = child;
-                    depth += 1;
-                }
+            let child = |index: u32| (index, self.nodes[index as usize].distance_squared(point));
+            let (left, right) = (child(node.first), child(node.first + 1));
+            let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
+            if far.1 < limit {
+                stack[depth] = far;
+                depth += 1;
+            }
+            if near.1 < limit {
+                stack[depth] = near;
+                depth += 1;
             }
         }
         best
@@ -140,20 +149,30 @@ fn bounds(order: &[u32], triangles: &[[Vec3; 3]], first: usize) -> Node {
 }
 
 /// The point of a triangle nearest to `point`. Any triangle will do: where the plane says nothing
-/// (no area), the edges and corners answer.
+/// (no area), the edges answer.
 pub fn closest_on_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
-    let (ab, ac) = (b - a, c - a);
+    let (ab, ac, from) = (b - a, c - a, point - a);
     let normal = ab.cross(ac);
-    let from = point - a;
     // Barycentric coordinates of the foot, times the squared normal.
-    let (w_b, w_c) = (from.cross(ac).dot(normal), ab.cross(from).dot(normal));
     let square = normal.length_squared();
-    if w_b > 0.0 && w_c > 0.0 && w_b + w_c < square {
+    let across = from.cross(normal);
+    let (w_b, w_c) = (-ac.dot(across), ab.dot(across));
+    let w_a = square - w_b - w_c;
+    if w_a > 0.0 && w_b > 0.0 && w_c > 0.0 {
         return a + ab * (w_b / square) + ac * (w_c / square);
     }
-    let candidates = [(a, b), (b, c), (c, a)].map(|(p, q)| closest_on_segment(point, p, q));
-    let nearer = |p: Vec3, q: Vec3| if q.distance_squared(point) < p.distance_squared(point) { q } else { p };
-    nearer(nearer(candidates[0], candidates[1]), candidates[2])
+    // The foot lies beyond one edge, or two: the nearest point is on one of those.
+    let (mut best, mut least) = (a, f32::INFINITY);
+    for (beyond, start, end) in [(w_c, a, b), (w_a, b, c), (w_b, c, a)] {
+        if beyond <= 0.0 {
+            let on = closest_on_segment(point, start, end);
+            let distance = on.distance_squared(point);
+            if distance < least {
+                (best, least) = (on, distance);
+            }
+        }
+    }
+    best
 }
 
 /// The point of a segment nearest to `point`.

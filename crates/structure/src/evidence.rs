@@ -4,9 +4,26 @@ use foliar_plant::Place;
 use foliar_schema::Role;
 use std::fmt::Write;
 
+/// Where evidence comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A pattern of `[roles]`.
+    Pattern,
+    /// A word in a name.
+    Name,
+    /// Alpha or color of the material.
+    Look,
+    /// Shape of the pieces.
+    Shape,
+    /// Vertices shared with another part, or the place beside other parts.
+    Neighbor,
+}
+
 /// One reason to believe in a role.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
+    /// Where it comes from.
+    pub source: Source,
     /// The role that it speaks for.
     pub role: Role,
     /// How much it says: natural logarithm of the odds.
@@ -32,8 +49,10 @@ pub struct PartEvidence {
     pub mixed: bool,
     /// Triangles, those without area included.
     pub triangles: usize,
-    /// Pieces connected over position ids.
+    /// Pieces connected over position ids; over equal positions where it is soup.
     pub pieces: usize,
+    /// Triangle soup: hardly any triangles share vertices.
+    pub soup: bool,
     /// Every reason, in the order in which it was looked for.
     pub evidence: Vec<Evidence>,
 }
@@ -47,10 +66,11 @@ pub fn explain(parts: &[PartEvidence]) -> String {
             (_, true) => " (crown volume)",
             _ => "",
         };
+        let soup = if part.soup { ", soup welded at equal positions" } else { "" };
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{:?} (mesh {}, primitive {}; {} triangles in {} pieces): {}{kind}, confidence {:.2}",
+            "{:?} (mesh {}, primitive {}; {} triangles in {} pieces{soup}): {}{kind}, confidence {:.2}",
             part.name, part.place.mesh, part.place.primitive, part.triangles, part.pieces, part.role, part.confidence
         );
         for evidence in &part.evidence {

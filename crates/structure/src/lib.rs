@@ -2,14 +2,30 @@
 //! virtual leaves of crown volumes. Found once, for every room. Branches come with wind.
 
 mod analyze;
+mod coverage;
+mod crown;
 mod error;
 mod evidence;
+mod findings;
+mod forms;
+mod geometry;
+mod groups;
 mod layer;
+mod leaves;
+mod look;
+mod lying;
 mod params;
+mod patterns;
+mod petiole;
+mod pieces;
+mod roles;
+mod shape;
+mod sharing;
+mod words;
 
 pub use analyze::{Analysis, analyze};
 pub use error::StructureError;
-pub use evidence::{Evidence, PartEvidence, explain};
+pub use evidence::{Evidence, PartEvidence, Source, explain};
 pub use layer::{from_layer, to_layer};
 pub use params::StructureParams;
 

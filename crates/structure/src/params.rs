@@ -1,5 +1,6 @@
 //! Parameters of the step: the section [structure].
 
+use crate::StructureError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,5 +19,24 @@ pub struct StructureParams {
 impl Default for StructureParams {
     fn default() -> Self {
         StructureParams { crown_spacing_m: None, min_confidence: 0.8 }
+    }
+}
+
+impl StructureParams {
+    /// Whether every value is in its range.
+    ///
+    /// # Errors
+    /// [`StructureError::Parameter`] names the first that is not.
+    pub fn check(&self) -> Result<(), StructureError> {
+        let error = |name, value, expected| Err(StructureError::Parameter { name, value, expected });
+        match self.crown_spacing_m {
+            Some(spacing) if !(spacing.is_finite() && spacing > 0.0) => {
+                error("crown_spacing_m", spacing, "above 0 and finite (distance between virtual leaves)")
+            }
+            _ if !(0.0..=1.0).contains(&self.min_confidence) => {
+                error("min_confidence", self.min_confidence, "0 to 1 (the least confidence without a finding)")
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -1,0 +1,67 @@
+//! What a person should know of roles and leaves.
+
+use crate::PartEvidence;
+use crate::geometry::Geometry;
+use crate::patterns::pattern_for;
+use foliar_schema::{Finding, Role, code};
+use std::collections::BTreeMap;
+
+/// Findings about roles: mixed parts, unsure parts with the lines to paste, no leaf at all.
+pub(crate) fn role_findings(parts: &[PartEvidence], min_confidence: f64) -> Vec<Finding> {
+    let place = |part: &PartEvidence| format!("/meshes/{}/primitives/{}", part.place.mesh, part.place.primitive);
+    let mut findings = Vec::new();
+    for part in parts.iter().filter(|p| p.mixed) {
+        let message = format!(
+            "part {:?} holds trunk and crown (or pictures of whole plants), and nothing tells them apart; it is treated \
+             as {}; split it in the modeller, or say what it is: --{} {:?}",
+            part.name,
+            part.role,
+            part.role,
+            pattern_for(&part.name)
+        );
+        findings.push(Finding::new(&code::ROLE_MIXED, message).at(place(part)));
+    }
+    let unsure: Vec<&PartEvidence> = parts.iter().filter(|p| !p.mixed && p.confidence < min_confidence).collect();
+    if let Some(first) = unsure.first() {
+        findings.push(Finding::new(&code::ROLE_UNSURE, unsure_message(&unsure)).at(place(first)));
+    }
+    if !parts.iter().any(|p| p.role == Role::Leaf) {
+        let message = format!("none of {} parts is a leaf; name them: --leaf PATTERN", parts.len());
+        findings.push(Finding::new(&code::LEAF_NONE, message));
+    }
+    findings
+}
+
+/// One message for all unsure parts, since a file can hold the table [roles] only once.
+fn unsure_message(unsure: &[&PartEvidence]) -> String {
+    let guess = |p: &&PartEvidence| format!("{:?} looks like {} (confidence {:.2})", p.name, p.role, p.confidence);
+    let guesses: Vec<String> = unsure.iter().map(guess).collect();
+    let mut lists: BTreeMap<Role, Vec<String>> = BTreeMap::new();
+    for part in unsure {
+        lists.entry(part.role).or_default().push(format!("{:?}", pattern_for(&part.name)));
+    }
+    let lines: Vec<String> = lists.iter().map(|(role, list)| format!("{role} = [{}]", list.join(", "))).collect();
+    format!("{}; if that is right, put into foliar.toml:\n[roles]\n{}", guesses.join(", "), lines.join("\n"))
+}
+
+/// Findings about geometry that is kept and left alone.
+pub(crate) fn geometry_findings(geometry: &Geometry, zero_area: usize, lying: Option<&str>) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if let Some(axis) = lying {
+        let message =
+            format!("the trunk's end points to {axis}, not down: is the file's up axis right? (an OBJ: --up z)");
+        findings.push(Finding::new(&code::IMPORT_LYING, message));
+    }
+    let arealess: usize = geometry.parts.iter().map(|p| p.has_area.iter().filter(|a| !**a).count()).sum();
+    let unused: usize = geometry.parts.iter().map(|p| p.pieces.unused_vertices()).sum();
+    if arealess + unused > 0 {
+        let message =
+            format!("{arealess} triangles without area, {unused} vertices that no triangle uses: kept, and ignored");
+        findings.push(Finding::new(&code::IMPORT_DEGENERATE, message));
+    }
+    if zero_area > 0 {
+        let message = format!("{zero_area} pieces of leaf parts have no area: kept, without a leaf row");
+        findings.push(Finding::new(&code::LEAF_ZERO_AREA, message));
+    }
+    findings
+}

@@ -1,0 +1,134 @@
+//! Leaves that are one object: doubled sheets and crossed cards.
+
+use crate::shape::{PieceShape, square_norm};
+
+/// Centers of one object lie within this share of the smaller spread: about 2 % of a card's edge.
+const CENTERS: f64 = 0.05;
+/// Spreads of one object differ by at most this factor.
+const SPREADS: f64 = 1.25;
+/// Sheets are doubles where area and second moments agree within this share.
+const DOUBLES: f64 = 0.1;
+/// Edge of a grid cell in units of the largest distance that two centers of its size class may have.
+const CELL: f64 = 8.0;
+
+/// Which leaves go together.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Groups {
+    /// Per leaf its group, numbered by their first leaves.
+    pub of_leaf: Vec<u32>,
+    /// Per leaf how many sheets lie on one another there, itself included.
+    pub doubles: Vec<u32>,
+}
+
+/// Groups leaves by their shapes. In an order that only geometry decides (so renumbering leaves
+/// changes nothing), each joins the first leader that it fits, or leads a group of its own: groups
+/// never grow along a row of neighbors.
+pub(crate) fn group(leaves: &[PieceShape]) -> Groups {
+    let mut order: Vec<u32> = (0..leaves.len() as u32).collect();
+    let key = |i: &u32| {
+        let leaf = &leaves[*i as usize];
+        [leaf.center.x, leaf.center.y, leaf.center.z, leaf.area]
+    };
+    order.sort_by(|a, b| {
+        key(a).iter().zip(&key(b)).fold(std::cmp::Ordering::Equal, |o, (x, y)| o.then(x.total_cmp(y))).then(a.cmp(b))
+    });
+    let mut leaders = Leaders::default();
+    let mut leader_of = vec![0u32; leaves.len()];
+    for index in order {
+        leader_of[index as usize] = leaders.find(index, leaves).unwrap_or_else(|| leaders.add(index, leaves));
+    }
+    Groups { of_leaf: number(&leader_of), doubles: count_doubles(leaves, &leader_of) }
+}
+
+/// A cell of the grid of one size class.
+type Cell = (i32, [i64; 3]);
+
+/// Leaders by cell. Cells suit the sizes in them, so leaves of all sizes can stand together.
+#[derive(Default)]
+struct Leaders {
+    #[expect(clippy::disallowed_types, reason = "looked up, never iterated")]
+    cells: std::collections::HashMap<Cell, Vec<u32>>,
+}
+
+impl Leaders {
+    fn add(&mut self, index: u32, leaves: &[PieceShape]) -> u32 {
+        let leaf = &leaves[index as usize];
+        let class = libm::ilogb(leaf.spread);
+        let cell = leaf.center.to_array().map(|x| cell_of(x, class));
+        self.cells.entry((class, cell)).or_default().push(index);
+        index
+    }
+
+    fn find(&self, index: u32, leaves: &[PieceShape]) -> Option<u32> {
+        let leaf = &leaves[index as usize];
+        let reach = CENTERS * leaf.spread;
+        let classes = libm::ilogb(leaf.spread / SPREADS)..=libm::ilogb(leaf.spread * SPREADS);
+        for class in classes {
+            let low = leaf.center.to_array().map(|x| cell_of(x - reach, class));
+            let high = leaf.center.to_array().map(|x| cell_of(x + reach, class));
+            for x in low[0]..=high[0] {
+                for y in low[1]..=high[1] {
+                    for z in low[2]..=high[2] {
+                        let leaders = self.cells.get(&(class, [x, y, z])).into_iter().flatten();
+                        if let Some(&leader) = leaders.into_iter().find(|&&l| fits(leaf, &leaves[l as usize])) {
+                            return Some(leader);
+                        }
+                    }
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Spreads of a class lie between 2^class and 2^(class + 1).
+fn cell_of(x: f64, class: i32) -> i64 {
+    (x / (CELL * CENTERS * libm::scalbn(2.0, class))).floor() as i64
+}
+
+fn fits(a: &PieceShape, b: &PieceShape) -> bool {
+    let (small, large) = (a.spread.min(b.spread), a.spread.max(b.spread));
+    large <= SPREADS * small && a.center.distance(b.center) <= CENTERS * small
+}
+
+/// Numbers groups by their first leaves.
+fn number(leader_of: &[u32]) -> Vec<u32> {
+    let mut number_of = vec![u32::MAX; leader_of.len()];
+    let mut next = 0;
+    leader_of
+        .iter()
+        .map(|&leader| {
+            let number = &mut number_of[leader as usize];
+            if *number == u32::MAX {
+                *number = next;
+                next += 1;
+            }
+            *number
+        })
+        .collect()
+}
+
+fn count_doubles(leaves: &[PieceShape], leader_of: &[u32]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..leaves.len() as u32).collect();
+    order.sort_by_key(|&i| leader_of[i as usize]);
+    let mut doubles = vec![1; leaves.len()];
+    for members in order.chunk_by(|&a, &b| leader_of[a as usize] == leader_of[b as usize]) {
+        // Sheets of one group are compared with the first of each stack, so that stacks stay apart.
+        let mut stacks: Vec<Vec<u32>> = Vec::new();
+        for &member in members {
+            let on = |stack: &&mut Vec<u32>| same_sheet(&leaves[stack[0] as usize], &leaves[member as usize]);
+            match stacks.iter_mut().find(on) {
+                Some(stack) => stack.push(member),
+                None => stacks.push(vec![member]),
+            }
+        }
+        stacks.iter().for_each(|stack| stack.iter().for_each(|&m| doubles[m as usize] = stack.len() as u32));
+    }
+    doubles
+}
+
+fn same_sheet(a: &PieceShape, b: &PieceShape) -> bool {
+    let larger = a.area.max(b.area);
+    let moments = a.spread.max(b.spread) * a.spread.max(b.spread);
+    (a.area - b.area).abs() <= DOUBLES * larger && square_norm(a.moments - b.moments).sqrt() <= DOUBLES * moments
+}
