@@ -1,0 +1,124 @@
+//! What was typed, taken out of clap's hands once.
+
+use crate::console::{Console, Verbosity};
+use clap::ArgMatches;
+use foliar_schema::Severity;
+use std::path::{Path, PathBuf};
+
+/// How results are printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// For people.
+    #[default]
+    Human,
+    /// JSON.
+    Json,
+}
+
+/// What a run does about its output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Writes it.
+    #[default]
+    Write,
+    /// Says whether it would change.
+    Check,
+    /// Prints the plan.
+    DryRun,
+}
+
+/// The flags that are no parameters.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Input files; `-` is standard input.
+    pub inputs: Vec<PathBuf>,
+    /// `-o`.
+    pub output: Option<PathBuf>,
+    /// `-d`.
+    pub directory: Option<PathBuf>,
+    /// `--keep-going`.
+    pub keep_going: bool,
+    /// `--picture`.
+    pub picture: Option<PathBuf>,
+    /// `--dry-run`, `--check`, or neither.
+    pub mode: Mode,
+    /// `--report`.
+    pub report: Option<PathBuf>,
+    /// `--depfile`.
+    pub depfile: Option<PathBuf>,
+    /// `--outputs`.
+    pub outputs: Option<PathBuf>,
+    /// `--fail-on`.
+    pub fail_on: Option<Severity>,
+    /// `--threads`.
+    pub threads: Option<usize>,
+    /// `--cache`.
+    pub cache: Option<PathBuf>,
+    /// `--only`.
+    pub only: Vec<String>,
+    /// `--explain-roles`.
+    pub explain_roles: bool,
+    /// `--config`.
+    pub config: Option<PathBuf>,
+    /// `--no-config`.
+    pub no_config: bool,
+    /// `--format`.
+    pub format: Format,
+    /// `--quiet`, `-v`, or neither.
+    pub verbosity: Verbosity,
+}
+
+impl Options {
+    /// Reads what a command has of them; what it has not was not given.
+    pub fn from(matches: &ArgMatches) -> Self {
+        let path = |id| matches.try_get_one::<PathBuf>(id).ok().flatten().cloned();
+        let word = |id| matches.try_get_one::<String>(id).ok().flatten().map(String::as_str);
+        let is = |id| matches.try_get_one::<bool>(id).ok().flatten().copied().unwrap_or(false);
+        Options {
+            inputs: matches.try_get_many("inputs").ok().flatten().into_iter().flatten().cloned().collect(),
+            output: path("output"),
+            directory: path("directory"),
+            keep_going: is("keep-going"),
+            picture: path("picture"),
+            mode: match (is("check"), is("dry-run")) {
+                (true, _) => Mode::Check,
+                (_, true) => Mode::DryRun,
+                _ => Mode::Write,
+            },
+            report: path("report"),
+            depfile: path("depfile"),
+            outputs: path("outputs"),
+            fail_on: word("fail-on").map(severity),
+            threads: matches.try_get_one::<u16>("threads").ok().flatten().map(|&n| n.into()),
+            cache: path("cache"),
+            only: matches.try_get_many("only").ok().flatten().into_iter().flatten().cloned().collect(),
+            explain_roles: is("explain-roles"),
+            config: path("config"),
+            no_config: is("no-config"),
+            format: if word("format") == Some("json") { Format::Json } else { Format::Human },
+            verbosity: match (is("quiet"), is("verbose")) {
+                (true, _) => Verbosity::Quiet,
+                (_, true) => Verbosity::Verbose,
+                _ => Verbosity::Normal,
+            },
+        }
+    }
+
+    /// The console that these options ask for.
+    pub fn console(&self) -> Console {
+        Console::new(self.verbosity, self.output.as_deref().is_some_and(is_dash))
+    }
+}
+
+fn severity(word: &str) -> Severity {
+    match word {
+        "note" => Severity::Note,
+        "warning" => Severity::Warning,
+        _ => Severity::Error,
+    }
+}
+
+/// Whether a path means standard input or output.
+pub fn is_dash(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
