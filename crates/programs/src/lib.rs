@@ -1,1 +1,25 @@
-//! The programs of foliar, five lines each
+//! The programs of foliar: their mains, and the rooms that there are.
+
+use foliar_bake::Baker;
+
+/// Every room of this version, in the order in which files list them.
+pub const BAKERS: &[&dyn Baker] = &[&foliar_density::Density];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_registry_is_the_contracts_list_after_structure() {
+        let rooms: Vec<_> = BAKERS.iter().map(|baker| baker.room()).collect();
+        assert_eq!(rooms, foliar_schema::ROOMS[1..]);
+    }
+
+    #[test]
+    fn parameters_of_every_room_are_of_kinds_that_flags_can_give() {
+        let fields = foliar_shell::config::Fields::new(BAKERS).unwrap();
+        for program in foliar_shell::Program::all(BAKERS) {
+            foliar_shell::commands(&program, BAKERS, &fields).debug_assert();
+        }
+    }
+}

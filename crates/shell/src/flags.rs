@@ -92,9 +92,8 @@ pub fn with_fields(command: Command, fields: &Fields, direct: Direct) -> Command
 pub fn given(fields: &Fields, direct: Direct, matches: &ArgMatches) -> Result<Settings, Failure> {
     let mut settings = Settings::default();
     for text in many(matches, "set") {
-        let (name, value) = text
-            .split_once('=')
-            .ok_or_else(|| Failure::usage(format!("--set {text}: must be SECTION.KEY=VALUE")))?;
+        let (name, value) =
+            text.split_once('=').ok_or_else(|| Failure::usage(format!("--set {text}: must be SECTION.KEY=VALUE")))?;
         let refuse = |e| Failure::usage(format!("--set {text}: {e}"));
         let field = fields.find(name.trim()).map_err(refuse)?;
         settings.set(field, from_text(field, value).map_err(refuse)?, Origin::Flag(format!("--set {text}")));

@@ -23,11 +23,7 @@ impl Sources<'_> {
     ///
     /// # Errors
     /// [`Failure::Usage`] from either.
-    pub fn new<'a>(
-        fields: &'a Fields,
-        direct: Direct,
-        matches: &clap::ArgMatches,
-    ) -> Result<Sources<'a>, Failure> {
+    pub fn new<'a>(fields: &'a Fields, direct: Direct, matches: &clap::ArgMatches) -> Result<Sources<'a>, Failure> {
         let variables = std::env::vars_os().filter_map(|(k, v)| Some((k.into_string().ok()?, v.into_string().ok()?)));
         let environment = from_environment(fields, variables)?;
         let flags = crate::flags::given(fields, direct, matches)?;
@@ -64,7 +60,8 @@ fn overlay(all: &mut Settings, stronger: Settings) -> Result<(), Failure> {
     for (one, other) in RIVALS {
         match (stronger.get(one), stronger.get(other)) {
             (Some(a), Some(b)) => {
-                let text = format!("{one} ({}) and {other} ({}) contradict each other: give one of them", a.origin, b.origin);
+                let text =
+                    format!("{one} ({}) and {other} ({}) contradict each other: give one of them", a.origin, b.origin);
                 return Err(Failure::usage(text));
             }
             (Some(_), None) => all.remove(other),

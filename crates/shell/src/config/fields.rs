@@ -72,12 +72,8 @@ impl Field {
 }
 
 /// Words of a schema's limits.
-const LIMITS: [(&str, &str); 4] = [
-    ("minimum", "at least"),
-    ("exclusiveMinimum", "above"),
-    ("maximum", "at most"),
-    ("exclusiveMaximum", "below"),
-];
+const LIMITS: [(&str, &str); 4] =
+    [("minimum", "at least"), ("exclusiveMinimum", "above"), ("maximum", "at most"), ("exclusiveMaximum", "below")];
 
 /// The unit that a name ends in.
 fn unit(flag: &str) -> Option<&'static str> {
@@ -110,6 +106,7 @@ impl Fields {
         fields.add("structure", schemars::schema_for!(foliar_structure::StructureParams).to_value())?;
         fields.add("scene", schemars::schema_for!(Scene).to_value())?;
         fields.add("pack", schemars::schema_for!(Pack).to_value())?;
+        fields.add("view", foliar_view::ViewParams::schema())?;
         for baker in bakers {
             fields.add(baker.room(), baker.schema())?;
         }
@@ -251,7 +248,11 @@ impl Walk<'_> {
     }
 
     fn refuse(&self, path: &[String], what: &str) -> String {
-        format!("{}.{}: {what}: parameters are numbers, text, words, lists or one level of them", self.section, path.join("."))
+        format!(
+            "{}.{}: {what}: parameters are numbers, text, words, lists or one level of them",
+            self.section,
+            path.join(".")
+        )
     }
 }
 
@@ -290,10 +291,13 @@ mod tests {
     fn every_section_of_the_contract_is_made_of_allowed_kinds() {
         let fields = Fields::new(&[]).unwrap();
         assert_eq!(fields.find("scene.camera.nearest_m").unwrap().env_name(), "FOLIAR_SCENE_CAMERA_NEAREST_M");
-        assert_eq!(fields.find("import.up").unwrap().kind, Kind::Choice(vec![
-            ("y".into(), "Y up, as glTF has it.".into()),
-            ("z".into(), "Z up: turned by -90 degrees about X.".into()),
-        ]));
+        assert_eq!(
+            fields.find("import.up").unwrap().kind,
+            Kind::Choice(vec![
+                ("y".into(), "Y up, as glTF has it.".into()),
+                ("z".into(), "Z up: turned by -90 degrees about X.".into()),
+            ])
+        );
         assert_eq!(fields.find("scene.light.sun_direction").unwrap().kind, Kind::Array(Box::new(Kind::Number), 3));
         assert_eq!(fields.find("scene.camera.height_px").unwrap().default, 1080);
         assert!(fields.find("scene.camera.nearest_m").unwrap().help().contains("[meters, above 0, default 3.0]"));

@@ -56,7 +56,8 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn table(&self, table: &DeTable, prefix: &str, settings: &mut Settings) -> Result<(), Failure> {
         for (key, value) in table {
-            let dotted = if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
+            let dotted =
+                if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
             let is_group = self.fields.all().iter().any(|field| field.dotted().starts_with(&format!("{dotted}.")));
             match value.get_ref() {
                 DeValue::Table(inner) if is_group => self.table(inner, &dotted, settings)?,
@@ -154,9 +155,17 @@ mod tests {
             error("[import]\nupp = 'z'"),
             "assets/foliar.toml:2: import.upp: no such parameter; did you mean import.up?"
         );
-        assert!(error("[import]\nup = 'x'").starts_with("assets/foliar.toml:2: import.up = \"x\": must be one of y, z"));
-        assert!(error("[import]\nheight_m = nan").starts_with("assets/foliar.toml:2: import.height_m = nan: must be a finite"));
-        assert!(error("[import]\n\nheight_m = -1").starts_with("assets/foliar.toml:3: import.height_m = -1: must be above 0"));
+        assert!(
+            error("[import]\nup = 'x'").starts_with("assets/foliar.toml:2: import.up = \"x\": must be one of y, z")
+        );
+        assert!(
+            error("[import]\nheight_m = nan")
+                .starts_with("assets/foliar.toml:2: import.height_m = nan: must be a finite")
+        );
+        assert!(
+            error("[import]\n\nheight_m = -1")
+                .starts_with("assets/foliar.toml:3: import.height_m = -1: must be above 0")
+        );
         assert!(error("[import\n").starts_with("assets/foliar.toml:1: no TOML: "));
         assert!(error("[wind]\nlevels = 2").contains("wind: not in this version"));
         assert!(error("up = 'z'").starts_with("assets/foliar.toml:1: up: no such parameter"));

@@ -24,6 +24,19 @@ pub enum Origin {
     Flag(String),
 }
 
+impl Origin {
+    /// The kind of source in one word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Origin::Scene(_) => "scene",
+            Origin::File(..) => "file",
+            Origin::Record(_) => "record",
+            Origin::Environment(_) => "environment",
+            Origin::Flag(_) => "flag",
+        }
+    }
+}
+
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,0 +1,5 @@
+//! The program `foliar-density`.
+
+fn main() -> std::process::ExitCode {
+    foliar_shell::foliar_room("density", foliar_programs::BAKERS)
+}

@@ -1,0 +1,125 @@
+//! `foliar inspect`: what a file holds.
+
+use super::{Call, assemble};
+use crate::config::Settings;
+use crate::console::Console;
+use crate::flags::Direct;
+use crate::gather::Sources;
+use crate::options::{Format, Options};
+use crate::outputs::is_layer;
+use crate::{Failure, load, plan};
+use foliar_bake::{Array, Layer};
+use foliar_plant::Base;
+use foliar_schema::{Import, names};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Runs the command.
+pub fn run(call: &Call) -> Result<(), Failure> {
+    let options = Options::from(call.matches);
+    let console = options.console();
+    let sources = Sources::new(call.fields, Direct::Assets, call.matches)?;
+    for input in &options.inputs {
+        let held = if is_layer(input) { layer_file(input)? } else { asset(&sources, &options, &console, input)? };
+        match options.format {
+            Format::Json => console.result(&held.to_string())?,
+            Format::Human => console.result(text(&held).trim_end())?,
+        }
+    }
+    Ok(())
+}
+
+fn layer_file(input: &Path) -> Result<Value, Failure> {
+    let layer = assemble::read_layer(input)?;
+    Ok(json!({
+        "file": input.display().to_string(),
+        "leaves": leaves(&layer),
+        "rooms": [room(&layer)],
+    }))
+}
+
+fn asset(sources: &Sources, options: &Options, console: &Console, input: &Path) -> Result<Value, Failure> {
+    let settings = sources.gather(options, input, Settings::default())?;
+    let asset = load::read(input, &settings.section::<Import>("import")?)?;
+    for finding in &asset.findings {
+        console.finding(finding);
+    }
+    let structure = asset.layers.iter().find(|layer| layer.record.room == names::ROOM_STRUCTURE);
+    Ok(json!({
+        "file": input.display().to_string(),
+        "base": asset.base_hash,
+        "leaves": structure.and_then(leaves),
+        "parts": parts(&asset.base, structure),
+        "rooms": asset.layers.iter().map(room).collect::<Vec<_>>(),
+        "findings": asset.findings,
+    }))
+}
+
+fn leaves(layer: &Layer) -> Option<usize> {
+    let is_structure = layer.record.room == names::ROOM_STRUCTURE;
+    is_structure.then(|| layer.column(names::CLASS_LEAF, "area").map_or(0, Array::rows))
+}
+
+fn parts(base: &Base, structure: Option<&Layer>) -> Vec<Value> {
+    let one = |part: &foliar_plant::Part| {
+        json!({
+            "name": part.name(),
+            "mesh": part.place.mesh,
+            "primitive": part.place.primitive,
+            "role": structure.and_then(|layer| layer.roles.get(&part.place)).map(|role| role.name()),
+            "vertices": part.positions.len(),
+            "triangles": part.triangles.len(),
+        })
+    };
+    base.parts.iter().map(one).collect()
+}
+
+/// Record and arrays of a layer.
+fn room(layer: &Layer) -> Value {
+    let attributes = layer.attributes.iter().map(|(key, array)| {
+        let place = format!("mesh {} primitive {}", key.place.mesh, key.place.primitive);
+        statistics(&key.name, &place, array)
+    });
+    let columns = layer.columns.iter().map(|(key, array)| statistics(&key.property, &key.class, array));
+    json!({
+        "room": layer.record.room,
+        "record": layer.record,
+        "channels": attributes.chain(columns).collect::<Vec<_>>(),
+    })
+}
+
+fn statistics(name: &str, place: &str, array: &Array) -> Value {
+    let values: Vec<f64> = match array {
+        Array::F32 { data, .. } => data.iter().copied().map(f64::from).collect(),
+        Array::I32 { data, .. } => data.iter().copied().map(f64::from).collect(),
+    };
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
+    let mean = values.iter().copied().collect::<foliar_numerics::CompensatedSum>().value() / values.len() as f64;
+    // An empty array has no least, mean or greatest value: JSON says null.
+    json!({ "name": name, "place": place, "rows": array.rows(), "width": array.width(), "min": low, "mean": mean, "max": high })
+}
+
+fn text(held: &Value) -> String {
+    let word = |value: &Value| match value {
+        Value::Null => "-".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Number(n) if n.is_f64() => format!("{:.4}", n.as_f64().unwrap_or_default()),
+        other => other.to_string(),
+    };
+    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let rows = |items: &[Value], names: [&str; 6]| {
+        let cells = items.iter().map(|item| names.map(|name| word(&item[name])));
+        plan::columns(&std::iter::once(names.map(String::from)).chain(cells).collect::<Vec<_>>())
+    };
+    let mut text = format!("{}: {} leaves\n", word(&held["file"]), word(&held["leaves"]));
+    let parts = list(&held["parts"]);
+    if !parts.is_empty() {
+        text.push_str(&rows(&parts, ["name", "role", "mesh", "primitive", "vertices", "triangles"]));
+    }
+    for room in list(&held["rooms"]) {
+        let record = &room["record"];
+        text.push_str(&format!("\n{} version {}, given {}\n", word(&room["room"]), record["version"], record["given"]));
+        text.push_str(&rows(&list(&room["channels"]), ["name", "place", "rows", "min", "mean", "max"]));
+    }
+    text
+}

@@ -1,0 +1,164 @@
+//! The command lines of all programs.
+
+use crate::config::Fields;
+use crate::flags::{self, Direct};
+use clap::{Arg, Command};
+use foliar_bake::Baker;
+
+/// A program of this house.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Program {
+    /// `foliar`: all commands.
+    Foliar,
+    /// `foliar-import`: import and structure.
+    Import,
+    /// `foliar-ROOM`: one room.
+    Room(String),
+    /// `foliar-view`: pictures.
+    View,
+}
+
+impl Program {
+    /// Every program that these bakers make.
+    pub fn all(bakers: &[&dyn Baker]) -> Vec<Program> {
+        let rooms = bakers.iter().map(|baker| Program::Room(baker.room().into()));
+        [Program::Foliar, Program::Import].into_iter().chain(rooms).chain([Program::View]).collect()
+    }
+
+    /// Name of the binary.
+    pub fn name(&self) -> String {
+        match self {
+            Program::Foliar => "foliar".into(),
+            Program::Import => "foliar-import".into(),
+            Program::Room(room) => format!("foliar-{room}"),
+            Program::View => "foliar-view".into(),
+        }
+    }
+}
+
+/// The command line of a program: flags, help, man pages and completions all come from it.
+pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Command {
+    let command = Command::new(program.name()).version(env!("CARGO_PKG_VERSION"));
+    match program {
+        Program::Foliar => foliar(command, bakers, fields),
+        Program::Import => {
+            let about = "Reads an OBJ, glTF or GLB, finds wood and leaves, and writes both into a glTF";
+            baking(command.about(about), fields, Direct::Section("structure"))
+        }
+        Program::Room(room) => {
+            let about = bakers.iter().find(|baker| baker.room() == room).map_or("", |baker| baker.about());
+            baking(command.about(format!("Bakes one room: {about}")), fields, Direct::Section(room))
+        }
+        Program::View => view(command, fields),
+    }
+}
+
+fn foliar(command: Command, bakers: &[&dyn Baker], fields: &Fields) -> Command {
+    command
+        .about("Bakes what real-time foliage needs into glTF trees")
+        .subcommand_required(true)
+        .arg_required_else_help(true)
+        .subcommand(bake(bakers, fields))
+        .subcommand(rebake(fields))
+        .subcommand(assemble())
+        .subcommand(strip())
+        .subcommand(config(fields))
+        .subcommand(inspect(fields))
+        .subcommand(generate())
+}
+
+/// A command that bakes: inputs, outputs, direct parameters.
+fn baking(command: Command, fields: &Fields, direct: Direct) -> Command {
+    let command = command
+        .arg(flags::inputs("INPUT", "OBJ, glTF or GLB files; - is standard input").required(true))
+        .arg(flags::output("Output: .glb, .gltf, .layer (one room alone), or - for standard output"));
+    flags::with_voice(flags::with_fields(flags::with_baking(command), fields, direct))
+}
+
+fn bake(bakers: &[&dyn Baker], fields: &Fields) -> Command {
+    let about = "Bakes trees all the way: import, structure, every room that the scene needs, one glTF";
+    baking(Command::new("bake").about(about), fields, Direct::Assets).arg(flags::only(bakers))
+}
+
+fn rebake(fields: &Fields) -> Command {
+    let about = "Repeats a bake from the records inside the files, in place, starting from what was given";
+    baking(Command::new("rebake").about(about), fields, Direct::Assets)
+}
+
+fn assemble() -> Command {
+    let command = Command::new("assemble")
+        .about("Puts layer files onto a plant; a layer of the same room is replaced")
+        .arg(flags::inputs("PLANT LAYER", "The plant (.glb or .gltf), then its layers").num_args(2..).required(true))
+        .arg(flags::output("Output: .glb, .gltf, or - for standard output").required(true));
+    flags::with_voice(command.arg(check_flag()))
+}
+
+fn strip() -> Command {
+    let command = Command::new("strip")
+        .about("Takes every layer out of a file again: what comes back is the base")
+        .arg(flags::inputs("FILE", "A baked .glb or .gltf").num_args(1).required(true))
+        .arg(flags::output("Output: .glb, .gltf, or - for standard output").required(true));
+    flags::with_voice(command.arg(check_flag()))
+}
+
+fn check_flag() -> Arg {
+    flags::switch("check", "Writes nothing; status 1 where the output would change")
+}
+
+fn config(fields: &Fields) -> Command {
+    let command = Command::new("config").about("Prints every parameter with its value and where that came from").arg(
+        flags::inputs("INPUT", "The asset that it is about: its own file and what the scene implies count").num_args(1),
+    );
+    flags::with_voice(flags::with_fields(command, fields, Direct::Assets))
+}
+
+fn inspect(fields: &Fields) -> Command {
+    let command = Command::new("inspect")
+        .about("Prints what a file holds: parts, roles, leaves, channels, records")
+        .arg(flags::inputs("FILE", "OBJ, glTF, GLB or layer files").required(true));
+    flags::with_voice(flags::with_fields(command, fields, Direct::Assets))
+}
+
+fn generate() -> Command {
+    let kinds = ["man", "completions", "help", "schema"];
+    Command::new("generate")
+        .about("Writes man pages, shell completions, help texts or JSON schemas into a folder")
+        .hide(true)
+        .arg(Arg::new("kind").value_name("KIND").value_parser(kinds).required(true).help("What to write"))
+        .arg(flags::inputs("DIR", "Folder to write into").num_args(1).required(true))
+}
+
+fn view(command: Command, fields: &Fields) -> Command {
+    let command = command
+        .about("Draws a tree as it is lit, or a channel in false colors")
+        .arg(flags::inputs("FILE", "OBJ, glTF or GLB file; - is standard input").num_args(1).required(true))
+        .arg(flags::output("Output: .png, or - for standard output").required(true))
+        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"));
+    flags::with_voice(flags::with_fields(command, fields, Direct::Section("view")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_line_is_consistent() {
+        let fields = Fields::new(&[]).unwrap();
+        for program in Program::all(&[]) {
+            // clap checks for flags that clash, here rather than in front of a user.
+            commands(&program, &[], &fields).debug_assert();
+        }
+    }
+
+    #[test]
+    fn every_direct_parameter_has_a_flag_with_help_and_no_default() {
+        let fields = Fields::new(&[]).unwrap();
+        let command = commands(&Program::View, &[], &fields);
+        for field in Direct::Section("view").fields(&fields) {
+            let arg = command.get_arguments().find(|arg| arg.get_id().as_str() == field.dotted());
+            let arg = arg.unwrap_or_else(|| panic!("{} has no flag", field.dotted()));
+            assert!(arg.get_help().is_some(), "{}", field.dotted());
+            assert!(arg.get_default_values().is_empty(), "{}: what is present was given", field.dotted());
+        }
+    }
+}

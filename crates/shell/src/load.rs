@@ -1,0 +1,127 @@
+//! From a path to a plant: import and structure.
+
+use crate::config::Settings;
+use crate::gather::Sources;
+use crate::options::{Options, is_dash};
+use crate::{Failure, record};
+use foliar_bake::Layer;
+use foliar_carrier::{Asset, Document, SourceKind};
+use foliar_plant::{Base, Plant};
+use foliar_schema::{Finding, Import, names};
+use foliar_structure::{PartEvidence, StructureParams};
+use serde_json::Value;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// A plant with everything that is known of where it came from.
+pub struct Loaded {
+    /// What was given for it.
+    pub settings: Settings,
+    /// The base glTF.
+    pub document: Document,
+    /// Base and structure.
+    pub plant: Plant,
+    /// Hash of the base.
+    pub base_hash: String,
+    /// The layer of structure.
+    pub structure: Layer,
+    /// Whether the file held layers already.
+    pub is_master: bool,
+    /// The other layers that the file held.
+    pub layers: Vec<Layer>,
+    /// Why each part has its role; empty where the file's own structure was taken.
+    pub evidence: Vec<PartEvidence>,
+    /// What was noticed.
+    pub findings: Vec<Finding>,
+    /// Every file that was really read, configuration included.
+    pub files: Vec<PathBuf>,
+    /// What kind of file it was.
+    pub source: SourceKind,
+}
+
+/// Reads an asset and finds its structure.
+///
+/// # Errors
+/// [`Failure`] with file, place and remedy.
+pub fn load(sources: &Sources, options: &Options, input: &Path) -> Result<Loaded, Failure> {
+    let before = sources.gather(options, input, Settings::default())?;
+    let asset = read(input, &before.section::<Import>("import")?)?;
+    let records: Vec<_> = asset.layers.iter().map(|layer| &layer.record).collect();
+    let (given_before, mut findings) = record::settings(sources.fields, &records, input);
+    let settings = sources.gather(options, input, given_before)?;
+    let Asset { document, base, base_hash, layers, findings: import_findings, mut files, source } = asset;
+    findings.splice(0..0, import_findings);
+    files.extend(settings.files.iter().cloned());
+    let is_master = !layers.is_empty();
+    let (own, layers): (Vec<Layer>, Vec<Layer>) =
+        layers.into_iter().partition(|layer| layer.record.room == names::ROOM_STRUCTURE);
+    let kept = own.into_iter().find(|layer| still_valid(layer, &settings, &base_hash));
+    let found = find_structure(&base, &settings, kept, options.explain_roles)?;
+    findings.extend(found.findings);
+    let plant = Plant::new(base, found.structure).map_err(|e| Failure::Input(format!("{}: {e}", input.display())))?;
+    Ok(Loaded {
+        settings,
+        document,
+        plant,
+        base_hash,
+        structure: found.layer,
+        is_master,
+        layers,
+        evidence: found.parts,
+        findings,
+        files,
+        source,
+    })
+}
+
+/// Reads a file, or standard input where its name is `-`.
+///
+/// # Errors
+/// [`Failure::Input`] with file, place and remedy.
+pub fn read(input: &Path, import: &Import) -> Result<Asset, Failure> {
+    if !is_dash(input) {
+        return Ok(foliar_carrier::read(input, import)?);
+    }
+    let mut bytes = Vec::new();
+    let unreadable =
+        |e| Failure::Input(format!("standard input: cannot be read: {e}: pipe an .obj, .gltf or .glb into it"));
+    std::io::stdin().lock().read_to_end(&mut bytes).map_err(unreadable)?;
+    Ok(foliar_carrier::read_bytes(bytes, "standard input", Path::new(""), import)?)
+}
+
+/// Whether a master's own structure is what analyzing it with these settings stands for. It knows
+/// which vertices an OBJ connected, which its glTF no longer says: so it is kept where it can be.
+fn still_valid(layer: &Layer, settings: &Settings, base_hash: &str) -> bool {
+    let record = &layer.record;
+    record.version == foliar_structure::VERSION
+        && record.given == record::given(settings, names::ROOM_STRUCTURE)
+        && record.reads.get("base").map(String::as_str) == Some(base_hash)
+}
+
+fn find_structure(
+    base: &Base,
+    settings: &Settings,
+    kept: Option<Layer>,
+    explain: bool,
+) -> Result<foliar_structure::Analysis, Failure> {
+    let roles = settings.section("roles")?;
+    let params: StructureParams = settings.section(names::ROOM_STRUCTURE)?;
+    let Some(layer) = kept else {
+        let mut analysis = foliar_structure::analyze(base, &roles, &params)?;
+        let record = &mut analysis.layer.record;
+        record.given = record::given(settings, names::ROOM_STRUCTURE);
+        record.resolved = as_object(&params);
+        record.resolved.insert("roles".into(), as_object(&roles).into());
+        return Ok(analysis);
+    };
+    let structure = foliar_structure::from_layer(&layer, base)?;
+    let parts = if explain { foliar_structure::analyze(base, &roles, &params)?.parts } else { Vec::new() };
+    Ok(foliar_structure::Analysis { structure, layer, parts, findings: Vec::new() })
+}
+
+fn as_object(value: &impl serde::Serialize) -> serde_json::Map<String, Value> {
+    match serde_json::to_value(value) {
+        Ok(Value::Object(object)) => object,
+        _ => serde_json::Map::new(),
+    }
+}

@@ -1,0 +1,138 @@
+//! What is said of one asset, filled in as the bake goes on, so that a failed one tells what it knows.
+
+use crate::load::Loaded;
+use crate::plan::Row;
+use crate::rooms::Room;
+use foliar_carrier::{Document, SourceKind};
+use foliar_schema::{Finding, names};
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The report of one asset.
+pub struct Report {
+    /// Members of the JSON object.
+    pub json: Map<String, Value>,
+    /// Everything noticed.
+    pub findings: Vec<Finding>,
+    /// Every file that was really read.
+    pub read: Vec<PathBuf>,
+    /// Every file that belongs to the output.
+    pub written: Vec<PathBuf>,
+    laps: Map<String, Value>,
+    start: Instant,
+    lap: Instant,
+}
+
+impl Report {
+    /// An empty report of an input.
+    pub fn new(input: &Path) -> Self {
+        let json = Map::from_iter([("asset".to_owned(), json!(input.display().to_string()))]);
+        let now = Instant::now();
+        Report {
+            json,
+            findings: Vec::new(),
+            read: Vec::new(),
+            written: Vec::new(),
+            laps: Map::new(),
+            start: now,
+            lap: now,
+        }
+    }
+
+    /// Sets a member.
+    pub fn set(&mut self, name: &str, value: impl Into<Value>) {
+        self.json.insert(name.into(), value.into());
+    }
+
+    /// Notes the seconds since the last lap; gives them in words.
+    pub fn lap(&mut self, stage: &str) -> String {
+        let seconds = self.lap.elapsed().as_secs_f64();
+        self.lap = Instant::now();
+        self.laps.insert(stage.into(), json!(seconds));
+        format!("{stage}: {seconds:.3} s")
+    }
+
+    /// What was read and found.
+    pub fn loaded(&mut self, loaded: &Loaded) {
+        self.read.clone_from(&loaded.files);
+        self.findings.extend(loaded.findings.iter().cloned());
+        let source = match loaded.source {
+            SourceKind::Obj => "obj",
+            SourceKind::Gltf => "gltf",
+            SourceKind::Glb => "glb",
+        };
+        self.set("source", source);
+        self.set("base", loaded.base_hash.clone());
+        self.set("parts", parts(loaded));
+        self.set("leaves", loaded.plant.leaves().len());
+        let names: Vec<String> = loaded.files.iter().map(|file| file.display().to_string()).collect();
+        self.set("files", names);
+    }
+
+    /// The plan.
+    pub fn plan(&mut self, rows: &[Row]) {
+        self.set("plan", rows.iter().map(Row::to_json).collect::<Vec<_>>());
+    }
+
+    /// What the rooms made, with bytes predicted and bytes in the file.
+    pub fn rooms(&mut self, rows: &[Row], rooms: &[Room], document: &Document) {
+        let needed = rows.iter().filter(|row| row.needed);
+        let one = |(row, room): (&Row, &Room)| {
+            let record = &room.layer.record;
+            json!({
+                "room": record.room,
+                "version": record.version,
+                "bytesPredicted": row.bytes,
+                "bytesWritten": written_bytes(document, &record.room),
+                "secondsEstimated": row.seconds(),
+                "seconds": room.seconds,
+                "cached": room.cached,
+                "given": record.given,
+                "resolved": record.resolved,
+                "facts": record.facts,
+                "errors": record.errors,
+                "writes": record.writes,
+            })
+        };
+        self.set("rooms", needed.zip(rooms).map(one).collect::<Vec<_>>());
+    }
+
+    /// The whole object.
+    pub fn finish(mut self) -> Map<String, Value> {
+        self.set("findings", json!(self.findings));
+        let laps = std::mem::take(&mut self.laps);
+        self.set("stages", laps);
+        let seconds = self.start.elapsed().as_secs_f64();
+        self.set("seconds", seconds);
+        self.json
+    }
+}
+
+/// Parts with their roles; those of a fresh analysis with their evidence in numbers.
+fn parts(loaded: &Loaded) -> Vec<Value> {
+    let one = |(index, part): (usize, &foliar_plant::Part)| {
+        let mut object = json!({
+            "name": part.name(),
+            "mesh": part.place.mesh,
+            "primitive": part.place.primitive,
+            "role": loaded.plant.role(index).name(),
+            "vertices": part.positions.len(),
+            "triangles": part.triangles.len(),
+        });
+        if let Some(evidence) = loaded.evidence.get(index) {
+            object["confidence"] = json!(evidence.confidence);
+            object["pieces"] = json!(evidence.pieces);
+            object["crownVolume"] = json!(evidence.crown_volume);
+        }
+        object
+    };
+    loaded.plant.parts().iter().enumerate().map(one).collect()
+}
+
+/// Bytes that the layer of a room takes in a document: its buffer views are named after it.
+pub fn written_bytes(document: &Document, room: &str) -> u64 {
+    let prefix = format!("{}{room}:", names::VIEW_PREFIX);
+    let of_room = |view: &&Value| view["name"].as_str().is_some_and(|name| name.starts_with(&prefix));
+    document.list("bufferViews").iter().filter(of_room).filter_map(|view| view["byteLength"].as_u64()).sum()
+}
