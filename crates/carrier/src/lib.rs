@@ -24,6 +24,7 @@ pub mod paths;
 mod read;
 mod rebase;
 mod scene;
+pub mod second_reader;
 mod takeout;
 mod trees;
 mod triangles;

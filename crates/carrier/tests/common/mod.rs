@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
-use foliar_carrier::{Asset, Document, read, read_bytes};
+use foliar_carrier::{Asset, Document, read, read_bytes, second_reader};
 use foliar_plant::Place;
 use foliar_schema::{Import, Record, Role, names};
 use serde_json::{Map, Value, json};
@@ -44,6 +44,18 @@ pub fn from_memory(bytes: &[u8]) -> Asset {
 
 pub fn from_document(document: &Document) -> Asset {
     from_memory(&document.to_glb().unwrap())
+}
+
+/// Leaves a file for the Khronos validator and the second reader to judge; `input` is the foreign file
+/// that it came from, which may have complaints of its own.
+pub fn keep(name: &str, bytes: &[u8], input: Option<&Path>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/foliar-test-outputs/carrier");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join(name), bytes).unwrap();
+    if let Some(input) = input {
+        std::fs::write(folder.join(format!("{name}.input")), input.display().to_string()).unwrap();
+    }
+    second_reader::verify(bytes).unwrap_or_else(|problem| panic!("{name}: {problem}"));
 }
 
 fn record(room: &str, reads: &[(&str, &str)], layer: Layer) -> Layer {

@@ -1,0 +1,287 @@
+//! A second reader of masters, which shares no code with the writer: it walks the JSON and the bytes
+//! by the glTF specification and the contract alone, and says what does not hold. Tests run it over
+//! every file that they write, since the Khronos validator cannot look inside the extensions.
+
+use foliar_schema::{CHANNELS, COLUMNS, Channel, names};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// What a file was found to hold.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Rooms of its records, in their order; none where the file is no master.
+    pub rooms: Vec<String>,
+    /// Rows of `foliarLeaf`.
+    pub leaves: usize,
+    /// Primitives with a role.
+    pub roles: usize,
+    /// Channels over primitives that were checked value by value.
+    pub attributes: usize,
+}
+
+/// How far the length of a unit vector may be from 1: each of three components is rounded to f32
+/// (relative 2^-24 each), so the squared length is off by less than 4 x 2^-24; eight times that.
+const UNIT_TOLERANCE: f64 = 2e-6;
+
+/// Reads `.glb`, or `.gltf` with its first buffer beside it, and verifies it.
+///
+/// # Errors
+/// What does not hold, with its place.
+pub fn verify_file(path: &Path) -> Result<Summary, String> {
+    let bytes = std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let verified = if bytes.starts_with(b"glTF") { verify(&bytes) } else { verify_json(&bytes, path) };
+    verified.map_err(|problem| format!("{}: {problem}", path.display()))
+}
+
+fn verify_json(bytes: &[u8], path: &Path) -> Result<Summary, String> {
+    let json: Value = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
+    let uri = json["buffers"][0]["uri"].as_str().filter(|uri| !uri.starts_with("data:"));
+    let name = uri.map(|uri| percent_encoding::percent_decode_str(uri).decode_utf8_lossy().into_owned());
+    let bin = name.map(|name| std::fs::read(path.with_file_name(name)).map_err(|e| e.to_string())).transpose()?;
+    Master { json: &json, bin: bin.as_deref().unwrap_or(&[]) }.verify()
+}
+
+/// Verifies one GLB.
+///
+/// # Errors
+/// What does not hold, with its place.
+pub fn verify(bytes: &[u8]) -> Result<Summary, String> {
+    let word = |at: usize| {
+        let four = bytes.get(at..at + 4).ok_or_else(|| format!("the file ends before byte {}", at + 4))?;
+        Ok::<usize, String>(four.iter().rev().fold(0, |sum, b| sum * 256 + usize::from(*b)))
+    };
+    ensure(bytes.starts_with(b"glTF") && word(4)? == 2 && word(8)? == bytes.len(), || "header".into())?;
+    let length = word(12)?;
+    ensure(length % 4 == 0 && bytes.get(16..20) == Some(b"JSON"), || "JSON chunk".into())?;
+    let json = bytes.get(20..20 + length).ok_or("the JSON chunk is cut")?;
+    let json: Value = serde_json::from_slice(json).map_err(|e| e.to_string())?;
+    let start = 20 + length;
+    let bin = if start < bytes.len() {
+        ensure(bytes.get(start + 4..start + 8) == Some(b"BIN\0"), || "BIN chunk".into())?;
+        ensure(start + 8 + word(start)? == bytes.len(), || "length of the BIN chunk".into())?;
+        &bytes[start + 8..]
+    } else {
+        &[]
+    };
+    Master { json: &json, bin }.verify()
+}
+
+fn ensure(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {
+    if holds { Ok(()) } else { Err(problem()) }
+}
+
+struct Master<'a> {
+    json: &'a Value,
+    bin: &'a [u8],
+}
+
+/// A property table as it was found.
+struct Table {
+    class: String,
+    rows: usize,
+}
+
+fn number(value: &Value) -> usize {
+    value.as_u64().map_or(0, |n| n as usize)
+}
+
+fn items(value: &Value) -> impl Iterator<Item = (usize, &Value)> {
+    value.as_array().into_iter().flatten().enumerate()
+}
+
+impl Master<'_> {
+    fn verify(&self) -> Result<Summary, String> {
+        let root = &self.json["extensions"][names::EXTENSION];
+        if root.is_null() {
+            return Ok(Summary::default());
+        }
+        let mirror = &self.json["asset"]["extras"];
+        ensure(!mirror.is_object() || &mirror[names::EXTENSION] == root, || "mirror and extension differ".into())?;
+        let listed = |list: &str, name: &str| items(&self.json[list]).any(|(_, v)| v == name);
+        ensure(listed("extensionsUsed", names::EXTENSION), || "the extension is not listed as used".into())?;
+        ensure(!listed("extensionsRequired", names::EXTENSION), || "the extension must not be required".into())?;
+        let writes: BTreeSet<&str> =
+            items(&root["records"]).flat_map(|(_, r)| items(&r["writes"]).filter_map(|(_, w)| w.as_str())).collect();
+        let tables = self.tables(root, &writes)?;
+        let mut summary = Summary {
+            rooms: items(&root["records"]).filter_map(|(_, r)| r["room"].as_str().map(str::to_string)).collect(),
+            leaves: tables.iter().find(|t| t.class == names::CLASS_LEAF).map_or(0, |t| t.rows),
+            ..Summary::default()
+        };
+        let mut found = BTreeSet::new();
+        for (m, mesh) in items(&self.json["meshes"]) {
+            let mut sets = BTreeSet::new();
+            for (p, primitive) in items(&mesh["primitives"]) {
+                let at = format!("/meshes/{m}/primitives/{p}");
+                let (names, role) = self.primitive(root, primitive, &tables).map_err(|e| format!("{at}: {e}"))?;
+                summary.roles += usize::from(role);
+                summary.attributes += names.len();
+                sets.insert(names);
+            }
+            ensure(sets.len() <= 1, || format!("/meshes/{m}: its primitives carry different channels: {sets:?}"))?;
+            found.extend(sets.into_iter().flatten());
+        }
+        let missing: Vec<_> = writes.iter().filter(|w| !w.contains('/') && !found.contains(**w)).collect();
+        ensure(missing.is_empty(), || format!("records name channels that no primitive has: {missing:?}"))?;
+        let extra: Vec<_> = found.iter().filter(|name| !writes.contains(**name)).collect();
+        ensure(extra.is_empty(), || format!("no record names the channels {extra:?}"))?;
+        Ok(summary)
+    }
+
+    /// Channels of a primitive, each value checked, and whether it has a role.
+    fn primitive(
+        &self,
+        root: &Value,
+        primitive: &Value,
+        tables: &[Table],
+    ) -> Result<(BTreeSet<&'static str>, bool), String> {
+        let role = &primitive["extensions"][names::EXTENSION]["role"];
+        let mirror = &primitive["extras"];
+        ensure(!mirror.is_object() || &mirror[names::EXTENSION]["role"] == role, || "role and mirror differ".into())?;
+        ensure(role.is_null() || ["wood", "leaf", "other"].iter().any(|r| role == r), || format!("role {role}"))?;
+        let attributes = &primitive["attributes"];
+        let count = number(&self.json["accessors"][number(&attributes["POSITION"])]["count"]);
+        let mut found = BTreeSet::new();
+        for channel in CHANNELS {
+            if channel.name == names::LEAF_ID {
+                if self.leaf_ids(primitive, count, tables)? {
+                    found.insert(channel.name);
+                }
+                continue;
+            }
+            let name = root["renamed"][channel.name].as_str().unwrap_or(channel.name);
+            if let Some(accessor) = attributes.get(name) {
+                let values = self.floats(number(accessor), channel.width, count).map_err(|e| format!("{name}: {e}"))?;
+                check_values(channel, &values).map_err(|e| format!("{name}: {e}"))?;
+                found.insert(channel.name);
+            }
+        }
+        Ok((found, !role.is_null()))
+    }
+
+    /// Whether a primitive has leaf ids; each is a row, or the null id.
+    fn leaf_ids(&self, primitive: &Value, count: usize, tables: &[Table]) -> Result<bool, String> {
+        let features = &primitive["extensions"][names::MESH_FEATURES]["featureIds"];
+        let feature = items(features).map(|(_, f)| f).filter(|f| f["label"] == names::LABEL_LEAF).last();
+        let Some(feature) = feature else { return Ok(false) };
+        let table =
+            feature["propertyTable"].as_u64().map(|t| tables.get(t as usize).ok_or("no such table")).transpose()?;
+        let leaf = tables.iter().find(|t| t.class == names::CLASS_LEAF);
+        ensure(table.is_none_or(|t| t.class == names::CLASS_LEAF), || "leaf ids name another table".into())?;
+        let rows = table.or(leaf).map_or(0, |t| t.rows);
+        ensure(number(&feature["featureCount"]) == rows.max(1), || format!("featureCount is not {rows}"))?;
+        let null = number(&feature["nullFeatureId"]);
+        ensure(null == rows, || format!("nullFeatureId {null} is not {rows}, the number of rows"))?;
+        let attribute = format!("{}{}", names::FEATURE_ID_PREFIX, number(&feature["attribute"]));
+        let accessor = primitive["attributes"][&attribute].as_u64().ok_or(format!("{attribute} does not exist"))?;
+        let ids = self.floats(accessor as usize, 1, count)?;
+        let bad = ids.iter().find(|id| id.fract() != 0.0 || **id < 0.0 || **id > null as f64);
+        ensure(bad.is_none(), || format!("leaf id {bad:?} is no row of {rows}"))?;
+        Ok(true)
+    }
+
+    /// All values of a float accessor of foliar.
+    fn floats(&self, accessor: usize, width: usize, count: usize) -> Result<Vec<f64>, String> {
+        let accessor = &self.json["accessors"][accessor];
+        let kind = ["", "SCALAR", "VEC2", "VEC3", "VEC4"][width];
+        ensure(accessor["type"] == kind && accessor["componentType"] == 5126, || format!("no {kind} of floats"))?;
+        ensure(number(&accessor["count"]) == count, || format!("count is not {count}, that of POSITION"))?;
+        let view = &self.json["bufferViews"][number(&accessor["bufferView"])];
+        ensure(view["name"].as_str().is_some_and(|n| n.starts_with("foliar:")), || "its view is not foliar's".into())?;
+        ensure(view["target"] == 34962, || "its view has no target".into())?;
+        let bytes = self.view(view, 4)?;
+        let (stride, offset) = (number(&view["byteStride"]).max(width * 4), number(&accessor["byteOffset"]));
+        (0..count)
+            .flat_map(|i| (0..width).map(move |c| offset + i * stride + c * 4))
+            .map(|at| float(bytes, at).ok_or_else(|| format!("byte {at} lies outside its view")))
+            .collect()
+    }
+
+    fn view(&self, view: &Value, alignment: usize) -> Result<&[u8], String> {
+        let (offset, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
+        ensure(view["buffer"] == 0 && offset % alignment == 0, || format!("view {view} is misplaced"))?;
+        self.bin.get(offset..offset + length).ok_or_else(|| format!("view {view} reaches past its buffer"))
+    }
+
+    /// All tables of the file in their order, foliar's verified: under their own class names.
+    fn tables(&self, root: &Value, writes: &BTreeSet<&str>) -> Result<Vec<Table>, String> {
+        let metadata = &self.json["extensions"][names::STRUCTURAL_METADATA];
+        let mut own: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+        for (class, property) in writes.iter().filter_map(|w| w.split_once('/')) {
+            own.entry(class).or_default().insert(property);
+        }
+        let mut tables = Vec::new();
+        for (_, table) in items(&metadata["propertyTables"]) {
+            let name = table["class"].as_str().unwrap_or("");
+            let class = own.keys().find(|class| root["renamed"][**class].as_str().unwrap_or(class) == name);
+            let rows = number(&table["count"]);
+            if let Some(class) = class {
+                let definitions = &metadata["schema"]["classes"][name]["properties"];
+                for property in &own[class] {
+                    let view = &self.json["bufferViews"][number(&table["properties"][property]["values"])];
+                    self.column(class, property, &definitions[property], view, rows)?;
+                }
+            }
+            tables.push(Table { class: class.map_or(name, |c| c).into(), rows });
+        }
+        let found: BTreeSet<String> = tables.iter().map(|t| t.class.clone()).collect();
+        for (class, properties) in own.iter().filter(|(class, _)| !found.contains(**class)) {
+            let named = &root["tables"][*class];
+            let rows = named["count"].as_u64().ok_or(format!("there is no table {class}"))? as usize;
+            for property in properties.iter().filter(|_| rows > 0) {
+                let definition = &named["properties"][property];
+                let views = &self.json["bufferViews"];
+                let view = items(views).map(|(_, v)| v).find(|v| v["name"] == definition["bufferView"]);
+                self.column(class, property, definition, view.ok_or(format!("{class}/{property} has no view"))?, rows)?;
+            }
+            tables.push(Table { class: (*class).into(), rows });
+        }
+        Ok(tables)
+    }
+
+    fn column(&self, class: &str, property: &str, definition: &Value, view: &Value, rows: usize) -> Result<(), String> {
+        let at = format!("{class}/{property}");
+        let Some(column) = COLUMNS.iter().find(|c| c.class == class && c.name == property) else { return Ok(()) };
+        let float = column.element == foliar_schema::Element::F32;
+        let kind = if column.array {
+            "SCALAR".into()
+        } else {
+            ["SCALAR", "VEC2", "VEC3", "VEC4"][column.width - 1].to_string()
+        };
+        let component = if float { "FLOAT32" } else { "INT32" };
+        let fits = definition["type"] == kind && definition["componentType"] == component;
+        ensure(fits, || format!("{at}: its class says {definition}"))?;
+        let bytes = self.view(view, 8).map_err(|e| format!("{at}: {e}"))?;
+        ensure(bytes.len() == rows * column.width * 4, || format!("{at}: {} bytes for {rows} rows", bytes.len()))?;
+        if float {
+            let values: Vec<f64> = (0..bytes.len() / 4).filter_map(|i| float_at(bytes, i)).collect();
+            ensure(values.iter().all(|v| v.is_finite()), || format!("{at} is not finite"))?;
+            ensure(property != "area" || values.iter().all(|v| *v >= 0.0), || format!("{at} is negative"))?;
+            let unit = property != "normal" || values.chunks(3).all(is_unit);
+            ensure(unit, || format!("{at} holds a normal that is not unit"))?;
+        }
+        Ok(())
+    }
+}
+
+fn float(bytes: &[u8], at: usize) -> Option<f64> {
+    let four: [u8; 4] = bytes.get(at..at + 4)?.try_into().ok()?;
+    Some(f64::from(f32::from_le_bytes(four)))
+}
+
+fn float_at(bytes: &[u8], index: usize) -> Option<f64> {
+    float(bytes, index * 4)
+}
+
+fn is_unit(vector: &[f64]) -> bool {
+    (vector.iter().map(|v| v * v).sum::<f64>().sqrt() - 1.0).abs() <= UNIT_TOLERANCE
+}
+
+fn check_values(channel: &Channel, values: &[f64]) -> Result<(), String> {
+    let (low, high) = (f64::from(channel.min), f64::from(channel.max));
+    let bad = values.iter().find(|v| !(**v >= low && **v <= high));
+    ensure(bad.is_none(), || format!("{bad:?} is outside {low} to {high}"))?;
+    let unit = !channel.unit_length || values.chunks(channel.width).all(is_unit);
+    ensure(unit, || "a vector is not unit".into())
+}
