@@ -3,7 +3,7 @@
 //! every file that they write, since the Khronos validator cannot look inside the extensions.
 
 use foliar_schema::{CHANNELS, COLUMNS, Channel, names};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -71,6 +71,13 @@ fn ensure(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {
     if holds { Ok(()) } else { Err(problem()) }
 }
 
+/// Whether extras mirror `value`. Where they are no object, or hold something foreign under the name
+/// (told by the missing member `key`), there can be no mirror.
+fn is_mirror(extras: &Value, key: &str, value: &Value) -> bool {
+    let foreign = extras.get(names::EXTENSION).is_some_and(|found| found.get(key).is_none());
+    !extras.is_object() || foreign || &extras[names::EXTENSION] == value
+}
+
 struct Master<'a> {
     json: &'a Value,
     bin: &'a [u8],
@@ -97,7 +104,7 @@ impl Master<'_> {
             return Ok(Summary::default());
         }
         let mirror = &self.json["asset"]["extras"];
-        ensure(!mirror.is_object() || &mirror[names::EXTENSION] == root, || "mirror and extension differ".into())?;
+        ensure(is_mirror(mirror, "contract", root), || "mirror and extension differ".into())?;
         let listed = |list: &str, name: &str| items(&self.json[list]).any(|(_, v)| v == name);
         ensure(listed("extensionsUsed", names::EXTENSION), || "the extension is not listed as used".into())?;
         ensure(!listed("extensionsRequired", names::EXTENSION), || "the extension must not be required".into())?;
@@ -138,7 +145,9 @@ impl Master<'_> {
     ) -> Result<(BTreeSet<&'static str>, bool), String> {
         let role = &primitive["extensions"][names::EXTENSION]["role"];
         let mirror = &primitive["extras"];
-        ensure(!mirror.is_object() || &mirror[names::EXTENSION]["role"] == role, || "role and mirror differ".into())?;
+        ensure(role.is_null() || is_mirror(mirror, "role", &json!({"role": role})), || {
+            "role and mirror differ".into()
+        })?;
         ensure(role.is_null() || ["wood", "leaf", "other"].iter().any(|r| role == r), || format!("role {role}"))?;
         let attributes = &primitive["attributes"];
         let count = number(&self.json["accessors"][number(&attributes["POSITION"])]["count"]);

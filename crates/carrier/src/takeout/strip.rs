@@ -27,11 +27,7 @@ pub(super) fn strip(document: &mut Document, contents: &Contents) {
         }
     }
     strip_metadata(&mut document.json, contents, &writes);
-    for (container, key) in [("/extensions", names::EXTENSION), ("/asset/extras", names::EXTENSION)] {
-        if let Some(object) = document.json.pointer_mut(container).and_then(Value::as_object_mut) {
-            object.shift_remove(key);
-        }
-    }
+    strip_root(&mut document.json);
     if exact {
         cut(document, contents);
     } else if let Some(used) = document.json.get_mut("extensionsUsed").and_then(Value::as_array_mut) {
@@ -39,6 +35,18 @@ pub(super) fn strip(document: &mut Document, contents: &Contents) {
     }
     for pointer in contents.notes.created.iter().rev() {
         remove_if_empty(&mut document.json, pointer);
+    }
+}
+
+/// Removes the root extension and, where it is a mirror and not somebody else's, what the extras hold.
+fn strip_root(json: &mut Value) {
+    let extensions = json.get_mut("extensions").and_then(Value::as_object_mut);
+    let root = extensions.and_then(|e| e.shift_remove(names::EXTENSION));
+    let extras = json.pointer_mut("/asset/extras").and_then(Value::as_object_mut);
+    if let Some(extras) = extras
+        && root.is_none_or(|root| extras.get(names::EXTENSION) == Some(&root))
+    {
+        extras.shift_remove(names::EXTENSION);
     }
 }
 
@@ -111,10 +119,14 @@ fn strip_primitive(primitive: &mut Value, contents: &Contents, writes: &BTreeSet
             attributes.shift_remove(&attribute);
         }
     }
+    let role = primitive.pointer("/extensions/FOLIAR_foliage/role").cloned();
     let Some(primitive) = primitive.as_object_mut() else { return };
     for container in ["extensions", "extras"] {
         let Some(object) = primitive.get_mut(container).and_then(Value::as_object_mut) else { continue };
-        let mut touched = object.shift_remove(names::EXTENSION).is_some();
+        // Extras may hold the name on somebody else's behalf: only a role is ours.
+        let found = object.get(names::EXTENSION).and_then(|e| e.get("role"));
+        let ours = found.is_some() && (role.is_none() || found == role.as_ref());
+        let mut touched = ours && object.shift_remove(names::EXTENSION).is_some();
         if container == "extensions" {
             touched |= remove_member_if_empty(object, names::MESH_FEATURES);
         }

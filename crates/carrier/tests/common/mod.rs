@@ -1,6 +1,8 @@
 //! What the tests of this crate share: shared files, synthetic documents, and layers made by rule.
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
+pub mod odd;
+
 use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
 use foliar_carrier::{Asset, Document, read, read_bytes, second_reader};
 use foliar_plant::Place;
