@@ -88,7 +88,7 @@ fn attractors(recipe: &Recipe) -> Vec<DVec3> {
 struct Colony {
     nodes: Vec<Node>,
     points: Vec<DVec3>,
-    /// Per point: squared distance to the nearest node, and that node; negative once reached.
+    /// Per point: least [`climb`] from a node, and that node; negative once reached.
     nearest: Vec<(f64, usize)>,
     cells: Vec<Vec<usize>>,
     low: DVec3,
@@ -141,11 +141,11 @@ impl Colony {
                 for x in range(0) {
                     let cell = (z as usize * self.counts[1] + y as usize) * self.counts[0] + x as usize;
                     for &point in &self.cells[cell] {
-                        let distance = self.points[point].distance_squared(position);
-                        if distance < kill {
+                        let way = self.points[point] - position;
+                        if way.length_squared() < kill {
                             self.nearest[point].0 = -1.0;
-                        } else if distance < self.nearest[point].0 {
-                            self.nearest[point] = (distance, node);
+                        } else if climb(way) < self.nearest[point].0 {
+                            self.nearest[point] = (climb(way), node);
                         }
                     }
                 }
@@ -187,6 +187,12 @@ const REACH: f64 = 9.0;
 const KILL: f64 = 1.6;
 /// How far the trunk goes up into the crown before the crown's points lead.
 const LEADER: f64 = 0.45;
+
+/// How far a way is for a branch: boughs rise, so the shortest way climbs by half of what it goes aside.
+fn climb(way: DVec3) -> f64 {
+    let aside = way.x.hypot(way.z);
+    aside * aside + (way.y - 0.5 * aside).powi(2)
+}
 
 /// Load of each node: itself and everything above.
 fn carry(nodes: &mut [Node]) {

@@ -26,31 +26,39 @@ pub fn bark(size: u32, seed: u64) -> Raster {
 }
 
 fn bark_color(p: DVec2, seed: u64) -> DVec3 {
-    let warp = 0.35 * cloud(seed + 1, p.x * 4.0, p.y * 4.0, (4, 4));
-    let ridge = |k: u64, cells: i64, tall: i64| {
-        let n = tile(seed + 10 + k, p.x * cells as f64 + warp, p.y * tall as f64 + warp, (cells, tall));
-        1.0 - n.abs() * 2.0
-    };
-    let furrow = smooth(0.25, 0.95, ridge(0, 9, 2)).max(0.7 * smooth(0.4, 1.0, ridge(1, 14, 4)));
-    let grain = cloud(seed + 3, p.x * 24.0, p.y * 8.0, (24, 8));
-    let plate = cloud(seed + 4, p.x * 6.0, p.y * 3.0, (6, 3));
-    let warm = DVec3::new(0.47, 0.37, 0.285) * (1.0 + 0.16 * plate + 0.18 * grain);
-    let color = warm.lerp(DVec3::new(0.17, 0.125, 0.095), 0.85 * furrow);
+    let (furrow, height) = bark_relief(p, seed);
+    let (_, beside) = bark_relief(p - DVec2::new(0.004, 0.004), seed);
+    let plate = cloud(seed + 4, p.x * 5.0, p.y * 3.0, (5, 3));
+    let warm = DVec3::new(0.46, 0.375, 0.30).lerp(DVec3::new(0.40, 0.36, 0.315), 0.5 + 0.5 * plate);
+    let color = warm.lerp(DVec3::new(0.20, 0.145, 0.11), 0.8 * furrow);
     let lichen = smooth(0.25, 0.6, cloud(seed + 5, p.x * 3.0, p.y * 3.0, (3, 3))) * (1.0 - furrow);
-    color.lerp(DVec3::new(0.47, 0.47, 0.36), 0.35 * lichen)
+    // A little light from the upper left: the relief is too fine for geometry.
+    color.lerp(DVec3::new(0.46, 0.47, 0.37), 0.3 * lichen) * (1.0 + 0.55 * (height - beside)).clamp(0.6, 1.5)
+}
+
+/// Depth of the furrows in [0, 1], and height of the surface.
+fn bark_relief(p: DVec2, seed: u64) -> (f64, f64) {
+    let warp = 0.6 * cloud(seed + 1, p.x * 6.0, p.y * 5.0, (6, 5));
+    let ridge = |k: u64, cells: i64, tall: i64| {
+        let n = tile(seed + 10 + k, p.x * cells as f64 + warp, p.y * tall as f64 + 0.5 * warp, (cells, tall));
+        smooth(0.35, 1.0, 1.0 - 2.2 * n.abs())
+    };
+    let furrow = ridge(0, 11, 2).max(0.75 * ridge(1, 19, 4)).max(0.4 * ridge(2, 31, 9));
+    let grain = cloud(seed + 3, p.x * 40.0, p.y * 12.0, (40, 12));
+    (furrow, 0.25 * grain - furrow)
 }
 
 /// [`ATLAS`] x [`ATLAS`] sprays of leaves, stalk at the lower edge.
 pub fn sprays(size: u32, seed: u64) -> Raster {
-    let cells: Vec<Vec<Blade>> = (0..u64::from(ATLAS * ATLAS)).map(|k| spray(seed + 31 * k)).collect();
+    let cells: Vec<Spray> = (0..u64::from(ATLAS * ATLAS)).map(|k| spray(seed + 31 * k)).collect();
     let edge = (size / ATLAS * ATLAS).max(16);
     raster("leaf", edge, |p| {
         let cell = (p * f64::from(ATLAS)).floor();
-        let blades = &cells[(cell.y as u32 * ATLAS + cell.x as u32) as usize];
+        let cell_spray = &cells[(cell.y as u32 * ATLAS + cell.x as u32) as usize];
         let inner = p * f64::from(ATLAS) - cell;
         let (mut color, mut alpha) = (DVec3::ZERO, 0.0);
         for s in samples(3) {
-            if let Some(hit) = spray_color(blades, inner + s * f64::from(ATLAS) / f64::from(edge)) {
+            if let Some(hit) = spray_color(cell_spray, inner + s * f64::from(ATLAS) / f64::from(edge)) {
                 color += hit;
                 alpha += 1.0;
             }
@@ -79,8 +87,14 @@ struct Blade {
     tint: DVec3,
 }
 
-/// Leaves left and right of a twig, and one at its end; the last drawn lies on top.
-fn spray(seed: u64) -> Vec<Blade> {
+/// A twig with its leaves; the last lies on top.
+struct Spray {
+    seed: u64,
+    blades: Vec<Blade>,
+}
+
+/// Leaves left and right of a twig, and one at its end.
+fn spray(seed: u64) -> Spray {
     let pair = |k: u64| {
         let side = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let t = 0.14 + 0.095 * k as f64;
@@ -89,7 +103,7 @@ fn spray(seed: u64) -> Vec<Blade> {
     };
     let mut blades: Vec<Blade> = (0..6).map(pair).collect();
     blades.push(blade(seed + 9, twig(0.62, seed), 0.12 * signed(seed, 9), 0.36));
-    blades
+    Spray { seed, blades }
 }
 
 /// The twig's line from the lower edge up.
@@ -100,12 +114,19 @@ fn twig(t: f64, seed: u64) -> DVec2 {
 fn blade(seed: u64, foot: DVec2, angle: f64, length: f64) -> Blade {
     let warmth = signed(seed, 5);
     let light = 1.0 + 0.16 * signed(seed, 6);
-    let tint = DVec3::new(0.30 + 0.05 * warmth, 0.43 + 0.015 * warmth, 0.13) * light;
+    let tint = DVec3::new(0.31 + 0.05 * warmth, 0.43 + 0.01 * warmth, 0.17 - 0.02 * warmth) * light;
     Blade { foot, along: DVec2::new(libm::sin(angle), -libm::cos(angle)), length, tint }
 }
 
-fn spray_color(blades: &[Blade], p: DVec2) -> Option<DVec3> {
-    blades.iter().rev().find_map(|blade| blade_color(blade, p))
+fn spray_color(spray: &Spray, p: DVec2) -> Option<DVec3> {
+    spray.blades.iter().rev().find_map(|blade| blade_color(blade, p)).or_else(|| twig_color(spray.seed, p))
+}
+
+/// The twig itself, thinning toward its end.
+fn twig_color(seed: u64, p: DVec2) -> Option<DVec3> {
+    let t = 1.0 - p.y;
+    let across = (p.x - twig(t, seed).x) / (0.012 - 0.008 * t);
+    (t < 0.66 && across.abs() < 1.0).then(|| DVec3::new(0.33, 0.26, 0.17) * (1.1 - 0.35 * across))
 }
 
 /// Color of a blade at a point, or nothing outside its outline and stalk.
@@ -128,11 +149,11 @@ fn blade_color(blade: &Blade, p: DVec2) -> Option<DVec3> {
     Some(color.lerp(DVec3::new(0.55, 0.62, 0.30), vein).clamp(DVec3::ZERO, DVec3::ONE))
 }
 
-/// Half the width of a leaf at `t` of its length: a heart with a drawn-out tip and a toothed rim.
+/// Half the width of a leaf at `t` of its length: round below, a drawn-out tip, a toothed rim.
 fn half_width(t: f64) -> f64 {
-    let body = libm::pow(t, 0.42) * libm::pow(1.0 - t, 0.95);
-    let tooth = 1.0 - 0.05 * (t * 13.0 - (t * 13.0).floor());
-    0.78 * body * tooth
+    let body = libm::pow(t, 0.38) * libm::pow(1.0 - t, 1.15);
+    let tooth = 1.0 - 0.045 * (t * 15.0 - (t * 15.0).floor());
+    (0.86 * body * tooth).max(0.012 * (1.0 - t))
 }
 
 /// Strength of the veins: midrib, and laterals that rise toward the rim.

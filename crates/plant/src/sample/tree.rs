@@ -32,16 +32,16 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    /// The tree that ships in fixtures/: a young linden, 4,200 sprays of leaves, textured.
+    /// The tree that ships in fixtures/: a young linden, 4,800 sprays of leaves, textured.
     pub fn linden() -> Self {
         Recipe {
-            leaves: 4200,
+            leaves: 4800,
             seed: 7,
             height_m: 6.4,
             crown_width_m: 4.6,
-            leaves_per_branchlet: 4.0,
+            leaves_per_branchlet: 3.4,
             bearing_load: 14.0,
-            leaf_size_m: 0.30,
+            leaf_size_m: 0.26,
             leaf_rows: 2,
             trunk_sides: 18,
             texture_px: 1024,
@@ -95,7 +95,7 @@ impl Recipe {
 
     /// Height at which the crown begins, meters.
     pub(super) fn crown_base_m(&self) -> f64 {
-        0.2 * self.height_m
+        0.17 * self.height_m
     }
 
     pub(super) fn trunk_radius_m(&self) -> f64 {
