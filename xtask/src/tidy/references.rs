@@ -6,7 +6,7 @@ use anyhow::Result;
 
 const LIST: &str = "docs/references.md";
 /// Words that look like a key and are none.
-const WORDS: [&str; 8] = ["Utf16", "Utf32", "Float32", "Float64", "Int32", "Uint32", "Png16", "Crc32"];
+const WORDS: [&str; 9] = ["Base64", "Utf16", "Utf32", "Float32", "Float64", "Int32", "Uint32", "Png16", "Crc32"];
 
 /// Complaints about all Rust files and documents.
 pub fn check(files: &[String]) -> Result<Vec<String>> {
