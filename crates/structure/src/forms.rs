@@ -10,6 +10,10 @@ const MOSTLY: f64 = 0.9;
 const MANY: usize = 8;
 /// Sizes are similar where the 10th and 90th percentile of area differ by less than this factor.
 const SIMILAR: f64 = 30.0;
+/// A card has fewer triangles than this; an outline has more.
+const OUTLINE: usize = 24;
+/// So few large cards show the whole plant each.
+const FEW: usize = 4;
 /// Wood fills no more than this share of the ball with its spread, averaged over its area.
 const SLENDER: f64 = 0.08;
 
@@ -22,6 +26,8 @@ pub(crate) struct Forms {
     pub height: f64,
     sheets: f64,
     silhouettes: f64,
+    silhouette_count: usize,
+    silhouette_triangles: usize,
     blobs: f64,
     bodies: f64,
     sheet_count: usize,
@@ -43,7 +49,11 @@ impl Forms {
                     forms.sheets += shape.area;
                     sheet_areas.push(shape.area);
                 }
-                Form::LargeSheet => forms.silhouettes += shape.area,
+                Form::LargeSheet => {
+                    forms.silhouettes += shape.area;
+                    forms.silhouette_count += 1;
+                    forms.silhouette_triangles += shape.triangles;
+                }
                 Form::Blob => forms.blobs += shape.area,
                 Form::Body => {
                     forms.bodies += shape.area;
@@ -75,8 +85,11 @@ impl Forms {
         wood > little && foliage > little
     }
 
+    /// Large sheets that are cut out along a plant's outline, or too few to be anything but its pictures.
     pub fn mostly_silhouettes(&self) -> bool {
-        self.share(self.silhouettes) >= 0.5
+        let cut_out = self.silhouette_triangles >= OUTLINE * self.silhouette_count;
+        let few = self.silhouette_count <= FEW && self.share(self.silhouettes) >= MOSTLY;
+        self.share(self.silhouettes) >= 0.5 && (cut_out || few)
     }
 }
 
@@ -103,7 +116,7 @@ pub(crate) fn shape_evidence(forms: &Forms) -> Vec<Evidence> {
         let (weight, kind) =
             if fullness <= SLENDER { (2.5, "slender tubes or branches") } else { (1.0, "bodies, not slender") };
         let reason = format!(
-            "shape: {:.0} % of the area is {kind} (they fill {fullness:.3} of the ball of their size)",
+            "{:.0} % of the area is {kind} (they fill {fullness:.3} of the ball of their size)",
             percent(forms.bodies)
         );
         return evidence(Role::Wood, weight, reason);
@@ -111,6 +124,7 @@ pub(crate) fn shape_evidence(forms: &Forms) -> Vec<Evidence> {
     let foliage = forms.sheets + forms.blobs + forms.silhouettes;
     let both = [(Role::Leaf, foliage, "sheets and blobs"), (Role::Wood, forms.bodies, "tubes and branching bodies")];
     both.into_iter()
+        .filter(|both| both.1 > 0.0)
         .map(|(role, area, what)| Evidence {
             source: Source::Shape,
             role,

@@ -2,10 +2,15 @@
 
 use crate::shape::{PieceShape, square_norm};
 
-/// Centers of one object lie within this share of the smaller spread: about 2 % of a card's edge.
-const CENTERS: f64 = 0.05;
+/// Centers within this share of the smaller spread are the same but for rounding ...
+const EXACT: f64 = 3e-4;
+/// ... and those of cards that were crossed by hand lie within this: about 2 % of a card's edge.
+const BY_HAND: f64 = 0.05;
 /// Spreads of one object differ by at most this factor.
 const SPREADS: f64 = 1.25;
+/// Crossed cards show the same picture upright: the cosine between their pictures' up directions is at
+/// least this (15 degrees). Twigs that happen to meet at their middles seldom agree so well.
+const UPRIGHT: f64 = 0.966;
 /// Sheets are doubles where area and second moments agree within this share.
 const DOUBLES: f64 = 0.1;
 /// Edge of a grid cell in units of the largest distance that two centers of its size class may have.
@@ -20,9 +25,11 @@ pub(crate) struct Groups {
     pub doubles: Vec<u32>,
 }
 
-/// Groups leaves by their shapes. In an order that only geometry decides (so renumbering leaves
-/// changes nothing), each joins the first leader that it fits, or leads a group of its own: groups
-/// never grow along a row of neighbors.
+/// Groups leaves by their shapes. First those whose centers are the same; then, of those still alone,
+/// crossed cards and sheets within hand's reach (a leaf that has found its partner looks no further:
+/// twigs of a dense crown come as near as that by chance). In an order that only geometry decides (so
+/// renumbering leaves changes nothing) each joins the first leader that it fits, or leads: groups never
+/// grow along a row of neighbors.
 pub(crate) fn group(leaves: &[PieceShape]) -> Groups {
     let mut order: Vec<u32> = (0..leaves.len() as u32).collect();
     let key = |i: &u32| {
@@ -32,20 +39,36 @@ pub(crate) fn group(leaves: &[PieceShape]) -> Groups {
     order.sort_by(|a, b| {
         key(a).iter().zip(&key(b)).fold(std::cmp::Ordering::Equal, |o, (x, y)| o.then(x.total_cmp(y))).then(a.cmp(b))
     });
-    let mut leaders = Leaders::default();
-    let mut leader_of = vec![0u32; leaves.len()];
-    for index in order {
-        leader_of[index as usize] = leaders.find(index, leaves).unwrap_or_else(|| leaders.add(index, leaves));
-    }
+    let mut leader_of: Vec<u32> = (0..leaves.len() as u32).collect();
+    join(leaves, &order, EXACT, |_, _| true, &mut leader_of);
+    let mut members = vec![0u32; leaves.len()];
+    leader_of.iter().for_each(|&leader| members[leader as usize] += 1);
+    order.retain(|&i| members[leader_of[i as usize] as usize] == 1);
+    join(leaves, &order, BY_HAND, |a, b| same_sheet(a, b) || same_up(a, b), &mut leader_of);
     Groups { of_leaf: number(&leader_of), doubles: count_doubles(leaves, &leader_of) }
+}
+
+/// Lets each leaf of `order` join a leader whose center is within `reach` of its own and that `fits`.
+fn join(
+    leaves: &[PieceShape],
+    order: &[u32],
+    reach: f64,
+    fits: impl Fn(&PieceShape, &PieceShape) -> bool,
+    leader_of: &mut [u32],
+) {
+    let mut leaders = Leaders { reach, cells: Default::default() };
+    for &index in order {
+        let fits = |a: &PieceShape, b: &PieceShape| near(a, b, reach) && fits(a, b);
+        leader_of[index as usize] = leaders.find(index, leaves, fits).unwrap_or_else(|| leaders.add(index, leaves));
+    }
 }
 
 /// A cell of the grid of one size class.
 type Cell = (i32, [i64; 3]);
 
 /// Leaders by cell. Cells suit the sizes in them, so leaves of all sizes can stand together.
-#[derive(Default)]
 struct Leaders {
+    reach: f64,
     #[expect(clippy::disallowed_types, reason = "looked up, never iterated")]
     cells: std::collections::HashMap<Cell, Vec<u32>>,
 }
@@ -54,18 +77,18 @@ impl Leaders {
     fn add(&mut self, index: u32, leaves: &[PieceShape]) -> u32 {
         let leaf = &leaves[index as usize];
         let class = libm::ilogb(leaf.spread);
-        let cell = leaf.center.to_array().map(|x| cell_of(x, class));
+        let cell = leaf.center.to_array().map(|x| self.cell_of(x, class));
         self.cells.entry((class, cell)).or_default().push(index);
         index
     }
 
-    fn find(&self, index: u32, leaves: &[PieceShape]) -> Option<u32> {
+    fn find(&self, index: u32, leaves: &[PieceShape], fits: impl Fn(&PieceShape, &PieceShape) -> bool) -> Option<u32> {
         let leaf = &leaves[index as usize];
-        let reach = CENTERS * leaf.spread;
+        let reach = self.reach * leaf.spread;
         let classes = libm::ilogb(leaf.spread / SPREADS)..=libm::ilogb(leaf.spread * SPREADS);
         for class in classes {
-            let low = leaf.center.to_array().map(|x| cell_of(x - reach, class));
-            let high = leaf.center.to_array().map(|x| cell_of(x + reach, class));
+            let low = leaf.center.to_array().map(|x| self.cell_of(x - reach, class));
+            let high = leaf.center.to_array().map(|x| self.cell_of(x + reach, class));
             for x in low[0]..=high[0] {
                 for y in low[1]..=high[1] {
                     for z in low[2]..=high[2] {
@@ -79,16 +102,22 @@ impl Leaders {
         }
         None
     }
+
+    /// Spreads of a class lie between 2^class and 2^(class + 1).
+    fn cell_of(&self, x: f64, class: i32) -> i64 {
+        (x / (CELL * self.reach * libm::scalbn(2.0, class))).floor() as i64
+    }
 }
 
-/// Spreads of a class lie between 2^class and 2^(class + 1).
-fn cell_of(x: f64, class: i32) -> i64 {
-    (x / (CELL * CENTERS * libm::scalbn(2.0, class))).floor() as i64
-}
-
-fn fits(a: &PieceShape, b: &PieceShape) -> bool {
+fn near(a: &PieceShape, b: &PieceShape, reach: f64) -> bool {
     let (small, large) = (a.spread.min(b.spread), a.spread.max(b.spread));
-    large <= SPREADS * small && a.center.distance(b.center) <= CENTERS * small
+    large <= SPREADS * small && a.center.distance(b.center) <= reach * small
+}
+
+/// Whether two pictures stand the same way up; yes where one has no texture coordinates to say so.
+fn same_up(a: &PieceShape, b: &PieceShape) -> bool {
+    let lengths = a.up.length() * b.up.length();
+    lengths <= 0.0 || a.up.dot(b.up) >= UPRIGHT * lengths
 }
 
 /// Numbers groups by their first leaves.

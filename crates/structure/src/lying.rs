@@ -13,7 +13,9 @@ const THICK: f64 = 0.1;
 /// Another direction wins where its end has this many times the girth of the lower end.
 const CLEARLY: f64 = 3.0;
 /// Places per triangle edge: long trunk triangles reach beyond the slab.
-const PLACES: u32 = 6;
+const PLACES: u32 = 3;
+/// A tree lies only along an axis in which it reaches at least this share of its height.
+const LONG: f64 = 0.5;
 
 /// The end of the wood in one direction.
 struct End {
@@ -32,7 +34,9 @@ pub(crate) fn lying_axis(geometry: &Geometry, roles: &[Role]) -> Option<&'static
     let end = |axis: DVec3| end_of(&places, axis, low, high, area);
     let below = end(DVec3::NEG_Y);
     let others = [("+X", DVec3::X), ("-X", DVec3::NEG_X), ("+Z", DVec3::Z), ("-Z", DVec3::NEG_Z)];
-    let found = others.map(|(name, axis)| (name, end(axis)));
+    let height = (high - low).y;
+    let long = others.into_iter().filter(|(_, axis)| (high - low).dot(axis.abs()) >= LONG * height);
+    let found: Vec<_> = long.map(|(name, axis)| (name, end(axis))).collect();
     let best = found.iter().filter(|(_, end)| end.trunk).max_by(|a, b| a.1.girth.total_cmp(&b.1.girth))?;
     let upright = below.trunk && CLEARLY * below.girth >= best.1.girth;
     (!upright).then_some(best.0)

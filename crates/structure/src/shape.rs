@@ -20,6 +20,10 @@ pub(crate) struct PieceShape {
     pub alignment: f64,
     /// Signed volume, the center joined to every triangle.
     pub volume: f64,
+    /// Where the texture's v falls (its picture's top), area-weighted; zero without texture coordinates.
+    pub up: DVec3,
+    /// Triangles with area.
+    pub triangles: usize,
     /// Every edge meets its opposite: a solid, or a sheet with both its sides.
     pub closed: bool,
 }
@@ -99,6 +103,7 @@ fn measure_piece(part: &PartGeometry, triangles: &[u32]) -> PieceShape {
     let mean = first_moment / area;
     let moments = second * (1.0 / area) - outer(mean);
     let closed = is_closed(part, triangles);
+    let up = with_area().map(|t| picture_up(part, t)).sum();
     PieceShape {
         area,
         center: origin + mean,
@@ -108,8 +113,32 @@ fn measure_piece(part: &PartGeometry, triangles: &[u32]) -> PieceShape {
         alignment: square_norm(normals) / (area * area),
         // Moving the apex from the origin to the center changes the volume of an open piece only.
         volume: volume - mean.dot(normal_sum) / 3.0,
+        up,
+        triangles: with_area().count(),
         closed,
     }
+}
+
+/// The direction in which a triangle's picture rises (glTF: v falls), as long as the triangle's area.
+fn picture_up(part: &PartGeometry, triangle: u32) -> DVec3 {
+    let [a, b, c] = part.part.triangles[triangle as usize].map(|v| v as usize);
+    let Some(&[v_a, v_b, v_c]) = part
+        .part
+        .uvs
+        .get(a)
+        .zip(part.part.uvs.get(b))
+        .zip(part.part.uvs.get(c))
+        .map(|((a, b), c)| [a, b, c].map(|uv| f64::from(uv.y)))
+        .as_ref()
+    else {
+        return DVec3::ZERO;
+    };
+    let corners = part.corners(triangle);
+    let (e, f) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let (ee, ff, ef) = (e.dot(e), f.dot(f), e.dot(f));
+    let (rise_e, rise_f) = (v_a - v_b, v_a - v_c);
+    let gradient = e * (rise_e * ff - rise_f * ef) + f * (rise_f * ee - rise_e * ef);
+    gradient.normalize_or_zero() * (0.5 * double_area(corners).length())
 }
 
 fn outer(v: DVec3) -> DMat3 {
