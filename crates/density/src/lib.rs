@@ -3,13 +3,33 @@
 //! Every leaf is a ball of influence; the sum of the balls is a density (Luft07 eq. 2). Where it is
 //! high, little of the sky is seen (eq. 4).
 
+mod ambient;
+mod directions;
+pub mod fast;
+mod field;
+mod generators;
+mod grid;
+mod kernel;
+mod lattice;
+mod medium;
+mod output;
 mod params;
+pub mod reference;
 mod requirement;
+mod sky;
+mod tessellate;
 
+pub use ambient::ambient_coefficient;
+pub use directions::{DIRECTIONS, sky_directions};
+pub use field::{Field, Query, Sample};
 use foliar_bake::{BakeError, Baked, Baker, Facts, Inputs, Needs, Progress, Requirement, Rung};
 use foliar_schema::{Scene, names};
+pub use generators::{Foliage, Generator, NO_GROUP};
+pub use kernel::Isa;
+pub use medium::{BALL_INTEGRAL, SkySample};
 pub use params::{AmbientTerm, Channels, GeneratorKind, Params, SelfLeaf};
 use serde_json::{Map, Value};
+pub use sky::Sky;
 
 const ROOM: &str = names::ROOM_DENSITY;
 
@@ -50,13 +70,25 @@ impl Baker for Density {
         Vec::new()
     }
 
-    fn bake(&self, _: &Inputs, params: &Map<String, Value>, _: &dyn Progress) -> Result<Baked, BakeError> {
-        Params::from_json(params)?;
-        Ok(Baked::default())
+    fn bake(&self, inputs: &Inputs, params: &Map<String, Value>, progress: &dyn Progress) -> Result<Baked, BakeError> {
+        let params = Params::from_json(params)?;
+        let (Some(plant), Some(foliage)) = (inputs.plant, generators::foliage(inputs, &params)) else {
+            return Ok(output::empty(&params));
+        };
+        let places = fast::Places::new(plant, &params);
+        progress.step("density", 0, 1);
+        let values = fast::values(plant, &foliage, &places, &params);
+        progress.step("density", 1, 1);
+        Ok(output::baked(plant, &foliage, &places, &values, &params))
     }
 
-    fn reference(&self, _: &Inputs, params: &Map<String, Value>) -> Result<Baked, BakeError> {
-        Params::from_json(params)?;
-        Ok(Baked::default())
+    fn reference(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Baked, BakeError> {
+        let params = Params::from_json(params)?;
+        let (Some(plant), Some(foliage)) = (inputs.plant, generators::foliage(inputs, &params)) else {
+            return Ok(output::empty(&params));
+        };
+        let places = fast::Places::new(plant, &params);
+        let values = reference::values(plant, &foliage, &places, &params);
+        Ok(output::baked(plant, &foliage, &places, &values, &params))
     }
 }

@@ -2,8 +2,10 @@
 
 mod directions;
 mod error_stats;
+mod morton;
 mod sum;
 
 pub use directions::{fibonacci_sphere, r2_point, radical_inverse};
 pub use error_stats::{ErrorStats, spearman};
+pub use morton::{MORTON_BITS, morton3};
 pub use sum::CompensatedSum;

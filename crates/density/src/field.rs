@@ -1,0 +1,168 @@
+//! The density of many balls and its gradient at many places (Luft07 eq. 2), exact up to f32 rounding:
+//! within 1e-6 of the sum of the weights in reach (the gradient: times 4 / radius).
+
+use crate::generators::Generator;
+use crate::grid::{Grid, Near};
+use crate::kernel::{Batch, Isa, LANES, Path, Sums};
+use foliar_numerics::{MORTON_BITS, morton3};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// A place to evaluate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Query {
+    /// Meters, relative to the plant's center.
+    pub position: DVec3,
+    /// Group whose balls do not count, or [`crate::NO_GROUP`].
+    pub skip: u32,
+}
+
+/// The density at a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// S, the sum of Luft07 eq. 2 with weights.
+    pub density: f32,
+    /// Its gradient, 1/m; zero where it was not asked for.
+    pub gradient: Vec3,
+}
+
+/// Parts of a radius that a Morton code tells apart: 2^3 along each axis.
+const FINE_BITS: u32 = 3;
+/// Queries of one task: enough work to be worth a thread's while.
+const TASK: usize = 2048;
+
+/// Balls, ready to be asked.
+#[derive(Clone, Debug)]
+pub struct Field {
+    grid: Grid,
+    radius: f64,
+    /// Radii per meter. A power of two times it is exact, so that block and fine cell of a place agree.
+    inverse: f64,
+    path: Path,
+}
+
+impl Field {
+    /// Sorts the balls. `radius` in meters, above 0 and at least 2^-17 of the extent of balls and queries.
+    pub fn new(generators: &[Generator], radius: f64) -> Field {
+        let inverse = 1.0 / radius;
+        Field { grid: Grid::new(generators, inverse), radius, inverse, path: Path::best() }
+    }
+
+    /// The same field on chosen instructions (plain where the processor lacks them): same bits.
+    pub fn on(mut self, isa: Isa) -> Field {
+        self.path = Path::new(isa);
+        self
+    }
+
+    /// Radius of influence, meters.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Density and gradient at each query.
+    pub fn samples(&self, queries: &[Query]) -> Vec<Sample> {
+        self.evaluate::<true>(queries)
+    }
+
+    /// Density alone at each query.
+    pub fn densities(&self, queries: &[Query]) -> Vec<f32> {
+        self.evaluate::<false>(queries).iter().map(|s| s.density).collect()
+    }
+
+    fn evaluate<const GRADIENT: bool>(&self, queries: &[Query]) -> Vec<Sample> {
+        let order = self.order(queries);
+        let blocks: Vec<&[(u64, u32)]> = order.chunk_by(|a, b| block_of(a.0) == block_of(b.0)).collect();
+        let mut results = vec![Sample::default(); queries.len()];
+        let parts: Vec<Vec<Sample>> = tasks(&blocks)
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, task| {
+                task.iter().flat_map(|block| self.block::<GRADIENT>(queries, block, scratch)).collect()
+            })
+            .collect();
+        for (&(_, index), sample) in order.iter().zip(parts.into_iter().flatten()) {
+            results[index as usize] = sample;
+        }
+        results
+    }
+
+    /// Queries in Morton order, ties by index.
+    fn order(&self, queries: &[Query]) -> Vec<(u64, u32)> {
+        let scale = f64::from(1u32 << FINE_BITS) * self.inverse;
+        let mut order: Vec<(u64, u32)> = queries
+            .par_iter()
+            .enumerate()
+            .map(|(index, query)| {
+                let [x, y, z] = (query.position * scale).to_array().map(|v| (v.floor() as i64 + MIDDLE) as u32);
+                (morton3(x, y, z), index as u32)
+            })
+            .collect();
+        order.par_sort_unstable();
+        order
+    }
+
+    /// Evaluates the queries of one block, a cube of one radius.
+    fn block<const GRADIENT: bool>(
+        &self,
+        queries: &[Query],
+        block: &[(u64, u32)],
+        scratch: &mut Scratch,
+    ) -> Vec<Sample> {
+        let places = || block.iter().map(|&(_, index)| queries[index as usize].position * self.inverse);
+        let (low, high) =
+            places().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        // The block's own center, not that of its queries: a query's bits must not depend on its company.
+        let origin = low.floor() + 0.5;
+        self.grid.near(low, high, origin, &mut scratch.near);
+        scratch.batches.clear();
+        scratch.batches.extend(block.chunks(LANES).map(|chunk| batch(queries, chunk, origin, self.inverse)));
+        self.path.sum::<GRADIENT>(&scratch.near, &scratch.batches, &mut scratch.sums);
+        let slope = -4.0 * self.inverse;
+        (0..block.len())
+            .map(|i| {
+                let sums = &scratch.sums[i / LANES];
+                let gradient = DVec3::from_array(sums.gradient.map(|g| f64::from(g[i % LANES])));
+                Sample { density: sums.density[i % LANES], gradient: (gradient * slope).as_vec3() }
+            })
+            .collect()
+    }
+}
+
+/// The center's place in Morton codes.
+const MIDDLE: i64 = 1 << (MORTON_BITS - 1);
+
+fn block_of(code: u64) -> u64 {
+    code >> (3 * FINE_BITS)
+}
+
+/// Buffers of one thread.
+#[derive(Default)]
+struct Scratch {
+    near: Near,
+    batches: Vec<Batch>,
+    sums: Vec<Sums>,
+}
+
+/// Joins blocks to tasks of similar size.
+fn tasks<'a, 'b>(blocks: &'b [&'a [(u64, u32)]]) -> Vec<&'b [&'a [(u64, u32)]]> {
+    let (mut tasks, mut start, mut size) = (Vec::new(), 0, 0);
+    for (index, block) in blocks.iter().enumerate() {
+        size += block.len();
+        if size >= TASK || index + 1 == blocks.len() {
+            tasks.push(&blocks[start..=index]);
+            (start, size) = (index + 1, 0);
+        }
+    }
+    tasks
+}
+
+/// Up to sixteen queries in lanes.
+fn batch(queries: &[Query], chunk: &[(u64, u32)], origin: DVec3, inverse: f64) -> Batch {
+    let lane = |l: usize| &queries[chunk[l.min(chunk.len() - 1)].1 as usize];
+    let mut batch = Batch { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES], skip: [0; LANES] };
+    for l in 0..LANES {
+        let query = lane(l);
+        let p = (query.position * inverse - origin).as_vec3();
+        (batch.x[l], batch.y[l], batch.z[l], batch.skip[l]) = (p.x, p.y, p.z, query.skip);
+    }
+    batch
+}

@@ -1,0 +1,154 @@
+//! Leaves to balls (Luft07 section 3): one ball per leaf, weighted by area; several for a leaf that is
+//! larger than the radius of influence.
+
+use crate::params::{GeneratorKind, Params};
+use crate::tessellate::Spread;
+use foliar_bake::{Inputs, Placed};
+use foliar_numerics::CompensatedSum;
+use foliar_plant::Plant;
+use glam::DVec3;
+
+/// The group of a query that leaves nothing out.
+pub const NO_GROUP: u32 = u32::MAX;
+/// The group of neighbors' balls: no query leaves it out.
+const NEIGHBOR_GROUP: u32 = u32::MAX - 1;
+
+/// One ball (a metaball's center of Luft07 eq. 2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Generator {
+    /// Meters, relative to the plant's center.
+    pub position: DVec3,
+    /// 0 or above; the mean over the plant's leaves with area is 1.
+    pub weight: f32,
+    /// The leaf's group.
+    pub group: u32,
+}
+
+/// The balls of a plant and its neighbors.
+#[derive(Clone, Debug)]
+pub struct Foliage {
+    /// The plant's own balls first, then the neighbors'.
+    pub generators: Vec<Generator>,
+    /// How many are the plant's own.
+    pub own: usize,
+    /// Radius of influence, meters.
+    pub radius: f64,
+    /// Mean area of the leaves that have area, m^2.
+    pub mean_area: f64,
+    /// Per leaf: distance from its center to its farthest vertex, meters (0 without vertices).
+    pub extents: Vec<f64>,
+}
+
+/// Bounds of the radius of influence relative to the plant's size: beyond them f32 coordinates tell
+/// nothing apart, or all leaves are at one place.
+const RADIUS_PER_SIZE: [f64; 2] = [1.0 / 65536.0, 65536.0];
+/// Bounds of the radius of influence in meters: its cube and inverse stay finite.
+const RADIUS_M: [f64; 2] = [1e-30, 1e30];
+/// Automatic radius in radii of gyration of the crown ...
+const RADIUS_PER_GYRATION: f64 = 0.13;
+/// ... and, for few leaves, in radii of gyration over the cube root of their number: the median leaf
+/// then has about a dozen neighbors on the shared trees.
+const RADIUS_PER_SPACING: f64 = 2.2;
+/// A leaf wider than this many radii of influence is sampled into several balls.
+const LARGE: f64 = 1.0;
+
+impl Foliage {
+    /// The balls that a plant and its neighbors make.
+    pub fn new(plant: &Plant, inputs_neighbors: &[Placed], params: &Params) -> Foliage {
+        let extents = extents(plant);
+        let radius = clamp_radius(params.radius_m.unwrap_or_else(|| automatic_radius(plant, &extents)), plant);
+        let with_area = plant.leaves().iter().filter(|leaf| leaf.area > 0.0).count().max(1);
+        let total: CompensatedSum = plant.leaves().iter().map(|leaf| f64::from(leaf.area)).collect();
+        let mean_area = total.value() / with_area as f64;
+        let mut foliage = Foliage { generators: Vec::new(), own: 0, radius, mean_area, extents };
+        foliage.add(plant, params.generators, None);
+        foliage.own = foliage.generators.len();
+        for neighbor in inputs_neighbors {
+            foliage.add(&neighbor.plant, params.generators, Some((neighbor, plant.center())));
+        }
+        foliage
+    }
+
+    /// The plant's own balls.
+    pub fn own(&self) -> &[Generator] {
+        &self.generators[..self.own]
+    }
+
+    /// Whether a leaf needs more than one ball, and values at its vertices rather than at its center.
+    pub fn is_large(&self, leaf: u32) -> bool {
+        2.0 * self.extents[leaf as usize] > LARGE * self.radius
+    }
+
+    fn add(&mut self, plant: &Plant, kind: GeneratorKind, neighbor: Option<(&Placed, DVec3)>) {
+        let extents = if neighbor.is_some() { extents(plant) } else { std::mem::take(&mut self.extents) };
+        let scale = neighbor.map_or(1.0, |(n, _)| n.transform.matrix3.determinant().abs().cbrt());
+        let is_large = |leaf: usize| 2.0 * extents[leaf] * scale > LARGE * self.radius;
+        let spread = Spread::new(plant, &is_large, self.radius / scale);
+        for (id, leaf) in plant.leaves().iter().enumerate() {
+            let weight = match kind {
+                _ if leaf.area <= 0.0 => continue,
+                GeneratorKind::Leaf if self.mean_area > 0.0 => f64::from(leaf.area) * scale * scale / self.mean_area,
+                GeneratorKind::Leaf | GeneratorKind::LeafCount => 1.0,
+            };
+            let own_center = leaf.center.as_dvec3() - plant.center();
+            for (position, share) in spread.of(id as u32).unwrap_or(&[(own_center, 1.0)]) {
+                let (position, group) = match neighbor {
+                    None => (*position, leaf.group),
+                    Some((n, center)) => {
+                        (n.transform.transform_point3(*position + plant.center()) - center, NEIGHBOR_GROUP)
+                    }
+                };
+                self.generators.push(Generator { position, weight: (weight * share) as f32, group });
+            }
+        }
+        if neighbor.is_none() {
+            self.extents = extents;
+        }
+    }
+}
+
+/// The balls that `inputs` make; `None` without a plant or without leaves.
+pub(crate) fn foliage(inputs: &Inputs, params: &Params) -> Option<Foliage> {
+    let plant = inputs.plant.filter(|plant| !plant.leaves().is_empty())?;
+    Some(Foliage::new(plant, inputs.neighbors, params))
+}
+
+fn extents(plant: &Plant) -> Vec<f64> {
+    let mut squares = vec![0.0f64; plant.leaves().len()];
+    for (index, part) in plant.parts().iter().enumerate() {
+        for vertex in 0..part.positions.len() {
+            if let Some(leaf) = plant.leaf_of(index, vertex) {
+                let leaf = leaf as usize;
+                if !plant.leaves()[leaf].crown_volume {
+                    let arm = part.rest_position(vertex) - plant.leaves()[leaf].center.as_dvec3();
+                    squares[leaf] = squares[leaf].max(arm.length_squared());
+                }
+            }
+        }
+    }
+    squares.into_iter().map(f64::sqrt).collect()
+}
+
+fn clamp_radius(radius: f64, plant: &Plant) -> f64 {
+    let size = plant.size().max_element();
+    let [low, high] = if size > 0.0 { RADIUS_PER_SIZE.map(|r| r * size) } else { RADIUS_M };
+    radius.clamp(low, high).clamp(RADIUS_M[0], RADIUS_M[1])
+}
+
+/// A share of the crown's radius of gyration (which no single outlying twig moves, and no rotation),
+/// larger where leaves are few, so that the median leaf sees neighbors at all.
+fn automatic_radius(plant: &Plant, extents: &[f64]) -> f64 {
+    let sum = |term: &dyn Fn(usize) -> f64| (0..plant.leaves().len()).map(term).collect::<CompensatedSum>().value();
+    let area = |leaf: usize| f64::from(plant.leaves()[leaf].area);
+    let arm = |leaf: usize| plant.leaves()[leaf].center.as_dvec3() - plant.center();
+    let total = sum(&area);
+    if total <= 0.0 {
+        return plant.size().max_element();
+    }
+    let mean = DVec3::from_array([0, 1, 2].map(|axis| sum(&|leaf| area(leaf) * arm(leaf)[axis]) / total));
+    // A disk's own second moment about its center: half its radius squared.
+    let square = |leaf: usize| (arm(leaf) - mean).length_squared() + extents[leaf] * extents[leaf] / 2.0;
+    let gyration = (sum(&|leaf| area(leaf) * square(leaf)) / total).sqrt();
+    let effective = total * total / sum(&|leaf| area(leaf) * area(leaf));
+    gyration * RADIUS_PER_GYRATION.max(RADIUS_PER_SPACING / effective.cbrt()).min(1.0)
+}

@@ -1,0 +1,146 @@
+//! Balls in rows along x, so that all balls near a box of queries are a few contiguous runs.
+//! Coordinates are in radii of influence, f64, relative to the plant's center.
+
+use crate::generators::Generator;
+use glam::DVec3;
+
+/// Rows per radius along y and z: finer rows fit the ball better, coarser ones are longer runs.
+const ROWS_PER_RADIUS: f64 = 3.0;
+/// How far balls are looked for, in radii: the excess covers f32 rounding of coordinates (below 1e-6),
+/// so that what is left out contributes exactly nothing.
+const REACH: f64 = 1.0 + 1e-5;
+
+/// A ball as the grid stores it.
+#[derive(Clone, Copy, Debug)]
+struct Stored {
+    position: DVec3,
+    weight: f32,
+    group: u32,
+}
+
+/// Balls whose y and z fall into one square, sorted by x.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    z: i32,
+    y: i32,
+    start: usize,
+}
+
+/// A ball relative to the origin of a block of queries, in radii.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ball {
+    pub x: f32,
+    pub y: f32,
+    pub z: f32,
+    pub weight: f32,
+    pub group: u32,
+}
+
+/// A run of balls of one row that a block of queries may touch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Run {
+    /// Lower corner of the row's square (y, z), relative to the block's origin.
+    pub low: [f32; 2],
+    /// First ball in [`Near::balls`].
+    pub start: usize,
+    /// One past the last.
+    pub end: usize,
+}
+
+/// Everything near one block of queries.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Near {
+    pub balls: Vec<Ball>,
+    pub runs: Vec<Run>,
+}
+
+/// All balls, in rows.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    rows: Vec<Row>,
+    balls: Vec<Stored>,
+}
+
+/// Edge of a row's square, in radii.
+pub(crate) const ROW_EDGE: f64 = 1.0 / ROWS_PER_RADIUS;
+
+/// Half the length along x that is within reach of a place whose distance across is `across`; `None`
+/// where nothing is.
+pub(crate) fn half_reach(across: [f64; 2]) -> Option<f64> {
+    let rest = REACH * REACH - across[0] * across[0] - across[1] * across[1];
+    (rest > 0.0).then(|| rest.sqrt())
+}
+
+/// Distance between the intervals [a, a + length] and [low, high]; 0 where they touch.
+pub(crate) fn gap(a: f64, length: f64, low: f64, high: f64) -> f64 {
+    (low - (a + length)).max(a - high).max(0.0)
+}
+
+impl Grid {
+    /// Sorts balls into rows, in an order that depends on where they are, not on how they were listed.
+    /// `inverse` is one over the radius of influence.
+    pub fn new(generators: &[Generator], inverse: f64) -> Grid {
+        let square = |p: DVec3| ((p.z * ROWS_PER_RADIUS).floor() as i32, (p.y * ROWS_PER_RADIUS).floor() as i32);
+        let mut balls: Vec<Stored> = generators
+            .iter()
+            .filter(|g| g.weight > 0.0)
+            .map(|g| Stored { position: g.position * inverse, weight: g.weight, group: g.group })
+            .collect();
+        balls.sort_unstable_by(|a, b| {
+            let (p, q) = (a.position, b.position);
+            square(p)
+                .cmp(&square(q))
+                .then(p.x.total_cmp(&q.x))
+                .then(p.y.total_cmp(&q.y))
+                .then(p.z.total_cmp(&q.z))
+                .then(a.weight.total_cmp(&b.weight))
+        });
+        let mut rows: Vec<Row> = Vec::new();
+        for (start, ball) in balls.iter().enumerate() {
+            let (z, y) = square(ball.position);
+            if rows.last().is_none_or(|row| (row.z, row.y) != (z, y)) {
+                rows.push(Row { z, y, start });
+            }
+        }
+        Grid { rows, balls }
+    }
+
+    /// Collects what is within reach of the box `low..high` (radii), relative to `origin`.
+    pub fn near(&self, low: DVec3, high: DVec3, origin: DVec3, near: &mut Near) {
+        near.balls.clear();
+        near.runs.clear();
+        let bound = |v: f64| (v * ROWS_PER_RADIUS).floor() as i32;
+        for z in bound(low.z - REACH)..=bound(high.z + REACH) {
+            let first = self.rows.partition_point(|r| (r.z, r.y) < (z, bound(low.y - REACH)));
+            let last = bound(high.y + REACH);
+            for (index, row) in self.rows.iter().enumerate().skip(first) {
+                if row.z != z || row.y > last {
+                    break;
+                }
+                let corner = [f64::from(row.y) * ROW_EDGE, f64::from(row.z) * ROW_EDGE];
+                let across = [gap(corner[0], ROW_EDGE, low.y, high.y), gap(corner[1], ROW_EDGE, low.z, high.z)];
+                if let Some(half) = half_reach(across) {
+                    let end = self.rows.get(index + 1).map_or(self.balls.len(), |next| next.start);
+                    let balls = &self.balls[row.start..end];
+                    take_run(balls, [low.x - half, high.x + half], corner, origin, near);
+                }
+            }
+        }
+    }
+}
+
+/// Appends the balls of a row whose x lies in `range`.
+fn take_run(balls: &[Stored], range: [f64; 2], corner: [f64; 2], origin: DVec3, near: &mut Near) {
+    let from = balls.partition_point(|b| b.position.x < range[0]);
+    let count = balls[from..].partition_point(|b| b.position.x <= range[1]);
+    if count == 0 {
+        return;
+    }
+    let start = near.balls.len();
+    near.balls.extend(balls[from..from + count].iter().map(|b| {
+        let p = (b.position - origin).as_vec3();
+        Ball { x: p.x, y: p.y, z: p.z, weight: b.weight, group: b.group }
+    }));
+    let low = [(corner[0] - origin.y) as f32, (corner[1] - origin.z) as f32];
+    near.runs.push(Run { low, start, end: near.balls.len() });
+}

@@ -1,0 +1,171 @@
+//! Density and gradient of a block of queries (Luft07 eq. 2), sixteen queries at a time, on whatever
+//! vector instructions the processor has.
+//!
+//! Each query has a lane of its own and meets the balls in the grid's order, one by one: a lane's sum is
+//! the same sequence of IEEE additions and multiplications whatever the width of the registers. Nothing
+//! is fused (rustc never contracts a * b + c), so all paths give the same bits.
+
+use crate::grid::{Ball, Near, ROW_EDGE, Run, gap, half_reach};
+
+/// Queries side by side.
+pub(crate) const LANES: usize = 16;
+
+/// Sixteen queries relative to their block's origin, in radii; short batches repeat their last query.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Batch {
+    pub x: [f32; LANES],
+    pub y: [f32; LANES],
+    pub z: [f32; LANES],
+    /// Group whose balls do not count.
+    pub skip: [u32; LANES],
+}
+
+/// Sums of sixteen queries; the gradient in units of 1 / radius, before the factor -4.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sums {
+    pub density: [f32; LANES],
+    pub gradient: [[f32; LANES]; 3],
+}
+
+/// Vector instructions to run on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Isa {
+    /// What every processor of the architecture has.
+    Plain,
+    /// AVX2, eight lanes.
+    Avx2,
+    /// AVX-512, sixteen lanes.
+    Avx512,
+}
+
+impl Isa {
+    /// What this processor has, widest last.
+    pub fn available() -> Vec<Isa> {
+        let mut found = vec![Isa::Plain];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if std::arch::is_x86_feature_detected!("avx2") {
+                found.push(Isa::Avx2);
+            }
+            if std::arch::is_x86_feature_detected!("avx512f") {
+                found.push(Isa::Avx512);
+            }
+        }
+        found
+    }
+}
+
+/// A path that this processor was seen to have: only [`Path::new`] makes one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Path(Isa);
+
+impl Path {
+    /// The path of these instructions, or the plain one where the processor lacks them.
+    pub fn new(isa: Isa) -> Path {
+        Path(if Isa::available().contains(&isa) { isa } else { Isa::Plain })
+    }
+
+    /// The widest path.
+    pub fn best() -> Path {
+        Path(Isa::available().last().copied().unwrap_or(Isa::Plain))
+    }
+
+    /// Sums all batches of a block; `GRADIENT` false leaves the gradients at zero.
+    #[cfg_attr(
+        target_arch = "x86_64",
+        expect(
+            unsafe_code,
+            reason = "run-time dispatch. Calling a function with target features is unsound only on a processor without \
+                      them; `self.0` is private and set only by `new` and `best`, which asked the processor."
+        )
+    )]
+    pub fn sum<const GRADIENT: bool>(self, near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => unsafe { sum_avx2::<GRADIENT>(near, batches, sums) },
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => unsafe { sum_avx512::<GRADIENT>(near, batches, sums) },
+            _ => sum_block::<GRADIENT>(near, batches, sums),
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn sum_avx2<const GRADIENT: bool>(near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
+    sum_block::<GRADIENT>(near, batches, sums);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn sum_avx512<const GRADIENT: bool>(near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
+    sum_block::<GRADIENT>(near, batches, sums);
+}
+
+#[inline(always)]
+fn sum_block<const GRADIENT: bool>(near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
+    sums.clear();
+    for batch in batches {
+        let bounds = [bounds(&batch.x), bounds(&batch.y), bounds(&batch.z)];
+        let mut total = Sums::default();
+        for run in &near.runs {
+            let balls = within_reach(run, near, &bounds);
+            if !balls.is_empty() {
+                add_run::<GRADIENT>(balls, batch, &mut total);
+            }
+        }
+        sums.push(total);
+    }
+}
+
+/// Least and greatest of the lanes.
+#[inline(always)]
+fn bounds(lanes: &[f32; LANES]) -> [f64; 2] {
+    let (mut low, mut high) = (lanes[0], lanes[0]);
+    for &v in lanes {
+        low = if v < low { v } else { low };
+        high = if v > high { v } else { high };
+    }
+    [f64::from(low), f64::from(high)]
+}
+
+/// The part of a run that a batch can touch.
+#[inline(always)]
+fn within_reach<'a>(run: &Run, near: &'a Near, bounds: &[[f64; 2]; 3]) -> &'a [Ball] {
+    let [x, y, z] = bounds;
+    let across = [gap(f64::from(run.low[0]), ROW_EDGE, y[0], y[1]), gap(f64::from(run.low[1]), ROW_EDGE, z[0], z[1])];
+    let Some(half) = half_reach(across) else { return &[] };
+    let balls = &near.balls[run.start..run.end];
+    let (low, high) = ((x[0] - half) as f32, (x[1] + half) as f32);
+    let from = balls.partition_point(|b| b.x < low);
+    let count = balls[from..].partition_point(|b| b.x <= high);
+    &balls[from..from + count]
+}
+
+/// Adds one run. It is summed by itself first: the rounding of a long sum then grows with the root of
+/// the number of runs, not of balls.
+#[inline(always)]
+fn add_run<const GRADIENT: bool>(balls: &[Ball], batch: &Batch, total: &mut Sums) {
+    let mut run = Sums::default();
+    for ball in balls {
+        for lane in 0..LANES {
+            let (dx, dy, dz) = (batch.x[lane] - ball.x, batch.y[lane] - ball.y, batch.z[lane] - ball.z);
+            let inside = 1.0 - (dx * dx + dy * dy + dz * dz);
+            let inside = if inside > 0.0 { inside } else { 0.0 };
+            let weight = if batch.skip[lane] == ball.group { 0.0 } else { ball.weight };
+            let slope = weight * inside;
+            run.density[lane] += slope * inside;
+            if GRADIENT {
+                run.gradient[0][lane] += slope * dx;
+                run.gradient[1][lane] += slope * dy;
+                run.gradient[2][lane] += slope * dz;
+            }
+        }
+    }
+    for lane in 0..LANES {
+        total.density[lane] += run.density[lane];
+        for axis in 0..3 {
+            total.gradient[axis][lane] += run.gradient[axis][lane];
+        }
+    }
+}
