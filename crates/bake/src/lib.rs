@@ -5,7 +5,9 @@ mod array;
 mod baker;
 mod error;
 mod hash;
+pub mod laws;
 mod layer;
+mod reframe;
 mod run;
 
 pub use array::Array;

@@ -128,7 +128,7 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
     let mut values = Values { reference, ambient: Vec::new(), normals: Vec::new(), sky_radius: None };
     if wants_normals || params.ambient == AmbientTerm::Sky {
         let plan = SkyPlan::new(plant, foliage, places, params);
-        let sky = Sky::new(foliage);
+        let sky = Sky::new(foliage, params.sky_points());
         values.sky_radius = Some(sky.radius());
         let samples = sky.samples(&plan.queries);
         if wants_ambient && params.ambient == AmbientTerm::Sky {

@@ -1,8 +1,9 @@
-//! A lattice of points around the crown: density on it, optical depths by sweeps, interpolation.
+//! A lattice of points around the crown, the density on it, and columns of it along a direction: optical
+//! depths with no interpolation from plane to plane, which would blur them.
 //! Coordinates are in radii of the medium's balls, relative to the plant's center.
 
 use crate::generators::Generator;
-use glam::{DVec3, USizeVec3};
+use glam::{DVec2, DVec3, USizeVec3};
 use rayon::prelude::*;
 
 /// Points (i, j, k) at `low + step * (i, j, k)`, x fastest.
@@ -15,72 +16,50 @@ pub(crate) struct Lattice {
     pub radius: f64,
 }
 
-/// Eight points around a place, and their weights.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stencil {
-    first: usize,
-    strides: [usize; 2],
-    weights: [f32; 8],
-}
-
-impl Stencil {
-    /// Trilinear interpolation.
-    pub fn value(&self, values: &[f32]) -> f32 {
-        let [y, z] = self.strides;
-        let pair = |at: usize, w: usize| self.weights[w] * values[at] + self.weights[w + 1] * values[at + 1];
-        let at = self.first;
-        (pair(at, 0) + pair(at + y, 2)) + (pair(at + z, 4) + pair(at + y + z, 6))
-    }
-}
+/// Largest step, in radii, with which a ball still touches points on every side.
+const COARSEST: f64 = 0.5;
 
 impl Lattice {
     /// Covers all balls with a step of `radius / points_per_radius`. Where that takes more than `most`
-    /// points the step grows, and the balls with it, so that none slips between the points.
+    /// points the step grows, to half a radius at most; from there on the balls grow with it, so that none
+    /// slips between the points.
     pub fn around(balls: &[Generator], radius: f64, points_per_radius: f64, most: usize) -> Lattice {
         let bounds = balls.iter().map(|ball| ball.position);
         let (low, high) =
             bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let (low, high) = if balls.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
-        let step = 1.0 / points_per_radius;
-        let mut lattice = Lattice { low, step, size: USizeVec3::ONE, radius };
+        let (mut step, mut radius) = (1.0 / points_per_radius, radius);
         loop {
             // Multiples of the step: where the points lie does not depend on the outermost leaf.
-            let first = ((low / lattice.radius - 1.0) / step).floor();
-            let count = ((high / lattice.radius + 1.0) / step).ceil() - first + 1.0;
-            if count.x * count.y * count.z <= most as f64 {
-                lattice.low = first * step;
-                lattice.size = count.as_usizevec3();
-                return lattice;
+            let first = ((low / radius - 1.0) / step).floor();
+            let count = ((high / radius + 1.0) / step).ceil() - first + 1.0;
+            if count.element_product() <= most as f64 {
+                return Lattice { low: first * step, step, size: count.as_usizevec3(), radius };
             }
-            lattice.radius *= 1.1;
+            if step < COARSEST { step = (step * 1.1).min(COARSEST) } else { radius *= 1.1 }
         }
-    }
-
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        self.size.element_product()
     }
 
     /// Density at each point (Luft07 eq. 2), summed in an order that depends on where the balls are only.
     pub fn splat(&self, balls: &[Generator]) -> Vec<f32> {
-        let mut balls: Vec<(DVec3, f32)> =
-            balls.iter().map(|b| ((b.position - self.low) / self.step, b.weight)).collect();
+        let steps = |ball: &Generator| ((ball.position - self.low) / self.step, ball.weight);
+        let mut balls: Vec<(DVec3, f32)> = balls.iter().map(steps).collect();
         balls.sort_unstable_by(|(p, v), (q, w)| {
             p.z.total_cmp(&q.z).then(p.y.total_cmp(&q.y)).then(p.x.total_cmp(&q.x)).then(v.total_cmp(w))
         });
-        let mut density = vec![0.0f32; self.len()];
-        density.par_chunks_mut((self.size.x * self.size.y).max(1)).enumerate().for_each(|(k, plane)| {
+        let mut density = vec![0.0f32; self.size.element_product()];
+        density.par_chunks_mut(self.size.x * self.size.y).enumerate().for_each(|(k, plane)| {
             let (z, reach) = (k as f64, 1.0 / self.step);
             let first = balls.partition_point(|(p, _)| p.z < z - reach);
             for (p, weight) in balls[first..].iter().take_while(|(p, _)| p.z <= z + reach) {
-                self.splat_plane(*p, f64::from(*weight), z, plane);
+                self.splat_plane(*p, *weight, z, plane);
             }
         });
         density
     }
 
     /// Adds one ball, given in steps, to the plane of points at `z`.
-    fn splat_plane(&self, ball: DVec3, weight: f64, z: f64, plane: &mut [f32]) {
+    fn splat_plane(&self, ball: DVec3, weight: f32, z: f64, plane: &mut [f32]) {
         let scale = self.step * self.step;
         let rest = 1.0 - (z - ball.z) * (z - ball.z) * scale;
         let half = (rest.max(0.0) / scale).sqrt();
@@ -90,103 +69,142 @@ impl Lattice {
         for j in range(ball.y, self.size.y) {
             let rest = rest - (j as f64 - ball.y) * (j as f64 - ball.y) * scale;
             for i in range(ball.x, self.size.x) {
-                let inside = rest - (i as f64 - ball.x) * (i as f64 - ball.x) * scale;
-                let inside = inside.max(0.0);
-                plane[j * self.size.x + i] += (weight * inside * inside) as f32;
+                let inside = (rest - (i as f64 - ball.x) * (i as f64 - ball.x) * scale).max(0.0) as f32;
+                plane[j * self.size.x + i] += weight * inside * inside;
             }
         }
     }
 
-    /// Integral of the density from each point toward `direction`, in radii: plane after plane along the
-    /// axis nearest to the direction, against it; each point takes the value where its ray meets the plane
-    /// before (bilinear), and the trapezoid between.
-    pub fn sweep(&self, density: &[f32], direction: DVec3, depths: &mut [f32]) {
-        let axis = direction.abs().max_position();
-        let (b, c) = [(1, 2), (0, 2), (0, 1)][axis];
-        let strides = [1, self.size.x, self.size.x * self.size.y];
+    /// The columns of this lattice along a unit vector.
+    pub fn columns(&self, toward: DVec3) -> Columns {
+        let axis = toward.abs().max_position();
+        let across = [[1, 2], [0, 2], [0, 1]][axis];
+        let slope = DVec2::new(toward[across[0]], toward[across[1]]) / toward[axis];
         let size = self.size.to_array();
-        let along = direction[axis].abs();
-        let half_step = (self.step / along / 2.0) as f32;
-        let shift = Shift::new(direction[b] / along, direction[c] / along);
-        let planes = size[axis];
-        for n in 1..planes {
-            let (here, before) = if direction[axis] > 0.0 { (planes - 1 - n, planes - n) } else { (n, n - 1) };
-            let (here, before) = (here * strides[axis], before * strides[axis]);
-            for j in 0..size[c] {
-                for i in 0..size[b] {
-                    let sum = shift.sum(i, j, size[b], size[c], |i, j| {
-                        let at = before + i * strides[b] + j * strides[c];
-                        depths[at] + half_step * density[at]
-                    });
-                    let at = here + i * strides[b] + j * strides[c];
-                    depths[at] = sum + half_step * density[at];
-                }
+        let reach = slope * (size[axis] - 1) as f64;
+        // Column (i, j) meets plane k at (i, j) + low + slope k: shifted so that every point has its column.
+        let low = -reach.max(DVec2::ZERO).ceil();
+        let high = DVec2::new((size[across[0]] - 1) as f64, (size[across[1]] - 1) as f64) - reach.min(DVec2::ZERO);
+        let width = (high - low).ceil() + 1.0;
+        let spacing = self.step / toward[axis].abs();
+        Columns {
+            axis,
+            across,
+            slope,
+            low,
+            width: [width.x as usize, width.y as usize],
+            spacing,
+            up: toward[axis] > 0.0,
+        }
+    }
+
+    /// Integral of the density along each column, from each plane on toward the direction (trapezoids),
+    /// in radii: plane after plane.
+    pub fn sweep(&self, density: &[f32], columns: &Columns) -> Vec<f32> {
+        let planes = self.size[columns.axis];
+        let [width, height] = columns.width;
+        let half = (columns.spacing / 2.0) as f32;
+        let mut depths = vec![0.0f32; planes * width * height];
+        let (mut here, mut before) = (vec![0.0f32; width * height], vec![0.0f32; width * height]);
+        for n in 0..planes {
+            let k = if columns.up { planes - 1 - n } else { n };
+            std::mem::swap(&mut here, &mut before);
+            self.slice(density, columns, k, &mut here);
+            let (from, to) = (columns.plane(if columns.up { k + 1 } else { k.wrapping_sub(1) }), columns.plane(k));
+            if n > 0 {
+                depths.copy_within(from, to.start);
+                let lanes = depths[to].iter_mut().zip(here.iter().zip(&before));
+                lanes.for_each(|(depth, (a, b))| *depth += half * (a + b));
+            }
+        }
+        depths
+    }
+
+    /// Density where the columns meet plane `k`, bilinear; nothing outside (the outermost points are empty).
+    fn slice(&self, density: &[f32], columns: &Columns, k: usize, plane: &mut [f32]) {
+        plane.fill(0.0);
+        let strides = [1, self.size.x, self.size.x * self.size.y];
+        let [b, c] = columns.across;
+        let (stride_b, stride_c) = (strides[b], strides[c]);
+        let shift = columns.low + columns.slope * k as f64;
+        let (whole, part) = (shift.floor(), (shift - shift.floor()).as_vec2());
+        let range = |whole: f64, width: usize, size: usize| {
+            let first = (-whole).max(0.0) as usize;
+            first..width.min((size as f64 - 1.0 - whole).max(0.0) as usize).max(first)
+        };
+        let weights =
+            [(1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y];
+        let columns_i = range(whole.x, columns.width[0], self.size[b]);
+        for j in range(whole.y, columns.width[1], self.size[c]) {
+            let row = k * strides[columns.axis] + (j as f64 + whole.y) as usize * stride_c;
+            let first = row + (columns_i.start as f64 + whole.x) as usize * stride_b;
+            let line = &mut plane[j * columns.width[0]..][columns_i.clone()];
+            for (n, value) in line.iter_mut().enumerate() {
+                let at = first + n * stride_b;
+                *value = (weights[0] * density[at] + weights[1] * density[at + stride_b])
+                    + (weights[2] * density[at + stride_c] + weights[3] * density[at + stride_b + stride_c]);
             }
         }
     }
 
-    /// The points around a place; `None` outside.
-    pub fn stencil(&self, place: DVec3) -> Option<Stencil> {
-        let steps = (place - self.low) / self.step;
-        let last = (self.size - 1).as_dvec3();
-        if steps.min_element() < 0.0 || (last - steps).min_element() < 0.0 {
-            return None;
-        }
-        // A place on the last point belongs to the cell before it.
-        let cell = steps.floor().min(last - 1.0);
-        let (f, c) = ((steps - cell).as_vec3(), cell.as_usizevec3());
-        let g = 1.0 - f;
-        let strides = [self.size.x, self.size.x * self.size.y];
-        let weights = [
-            g.x * g.y * g.z,
-            f.x * g.y * g.z,
-            g.x * f.y * g.z,
-            f.x * f.y * g.z,
-            g.x * g.y * f.z,
-            f.x * g.y * f.z,
-            g.x * f.y * f.z,
-            f.x * f.y * f.z,
-        ];
-        Some(Stencil { first: c.x + c.y * strides[0] + c.z * strides[1], strides, weights })
-    }
-
-    /// Where a ray from outside enters the lattice, pulled inside by rounding's worth; `None` if it misses.
-    pub fn entry(&self, from: DVec3, toward: DVec3) -> Option<DVec3> {
+    /// Swept depth at a place, interpolated along its column and between columns; outside, that of the place
+    /// where the ray enters, and 0 where it misses.
+    pub fn value_toward(&self, depths: &[f32], columns: &Columns, place: DVec3, toward: DVec3) -> f32 {
         let high = self.low + self.step * (self.size - 1).as_dvec3();
-        let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
-        for axis in 0..3 {
-            let (a, b) = ((self.low[axis] - from[axis]) / toward[axis], (high[axis] - from[axis]) / toward[axis]);
-            // Parallel inside a slab gives 0 / 0 or infinities of both signs: min and max drop the NaN.
-            enter = enter.max(a.min(b));
-            leave = leave.min(a.max(b));
-        }
-        (enter < leave).then(|| (from + toward * enter).clamp(self.low, high))
+        let inside = place.cmpge(self.low).all() && place.cmple(high).all();
+        let entry = if inside { Some(place) } else { entry(self.low, high, place, toward) };
+        entry.map_or(0.0, |entry| columns.interpolate(depths, (entry - self.low) / self.step, self.size))
     }
 }
 
-/// A shift between planes, in steps, as offsets and bilinear weights.
-struct Shift {
-    low: [isize; 2],
-    part: [f32; 2],
+/// Where a ray from outside enters a box; `None` if it misses.
+fn entry(low: DVec3, high: DVec3, from: DVec3, toward: DVec3) -> Option<DVec3> {
+    let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
+    for axis in 0..3 {
+        let (a, b) = ((low[axis] - from[axis]) / toward[axis], (high[axis] - from[axis]) / toward[axis]);
+        // Parallel inside a slab gives 0 / 0 or infinities of both signs: min and max drop the NaN.
+        enter = enter.max(a.min(b));
+        leave = leave.min(a.max(b));
+    }
+    (enter < leave).then(|| (from + toward * enter).clamp(low, high))
 }
 
-impl Shift {
-    fn new(b: f64, c: f64) -> Shift {
-        Shift { low: [b.floor() as isize, c.floor() as isize], part: [(b - b.floor()) as f32, (c - c.floor()) as f32] }
+/// Columns along one direction: they run through the planes across the axis nearest to it.
+#[derive(Clone, Debug)]
+pub(crate) struct Columns {
+    axis: usize,
+    across: [usize; 2],
+    /// Steps across for a step along the axis.
+    slope: DVec2,
+    /// Where column (0, 0) meets plane 0, in steps.
+    low: DVec2,
+    width: [usize; 2],
+    /// Length of a column between two planes, in radii.
+    spacing: f64,
+    /// Whether the direction points up the axis.
+    up: bool,
+}
+
+impl Columns {
+    fn plane(&self, k: usize) -> std::ops::Range<usize> {
+        let points = self.width[0] * self.width[1];
+        k.wrapping_mul(points)..k.wrapping_add(1).wrapping_mul(points)
     }
 
-    /// Weighted sum of `value` at the four points around (i, j) shifted; points outside count nothing.
-    #[inline(always)]
-    fn sum(&self, i: usize, j: usize, width: usize, height: usize, value: impl Fn(usize, usize) -> f32) -> f32 {
-        let mut sum = 0.0;
-        for (dj, wj) in [(0, 1.0 - self.part[1]), (1, self.part[1])] {
-            for (di, wi) in [(0, 1.0 - self.part[0]), (1, self.part[0])] {
-                let (i, j) = (i.wrapping_add_signed(self.low[0] + di), j.wrapping_add_signed(self.low[1] + dj));
-                if i < width && j < height {
-                    sum += wi * wj * value(i, j);
-                }
-            }
-        }
-        sum
+    /// Linear along the column and across; `place` in steps from the lattice's first point, inside it.
+    fn interpolate(&self, depths: &[f32], place: DVec3, size: USizeVec3) -> f32 {
+        let [b, c] = self.across;
+        let at = DVec3::new(place[self.axis], place[b], place[c]);
+        let column = DVec2::new(at.y, at.z) - self.slope * at.x - self.low;
+        let steps = DVec3::new(column.x, column.y, at.x);
+        let last = USizeVec3::new(self.width[0], self.width[1], size[self.axis]) - 2;
+        let cell = steps.floor().clamp(DVec3::ZERO, last.as_dvec3());
+        let (part, first) = ((steps - cell).as_vec3(), cell.as_usizevec3());
+        let (row, plane) = (self.width[0], self.width[0] * self.width[1]);
+        let at = first.x + first.y * row + first.z * plane;
+        let mix = |a: f32, b: f32, part: f32| a + (b - a) * part;
+        let line = |at: usize| mix(depths[at], depths[at + 1], part.x);
+        let face = |at: usize| mix(line(at), line(at + row), part.y);
+        mix(face(at), face(at + plane), part.z)
     }
 }

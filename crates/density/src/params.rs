@@ -81,6 +81,10 @@ pub struct Params {
     pub generators: GeneratorKind,
     /// Which channels are written.
     pub channels: Channels,
+    /// Error of the sky's normals and ambient term, rms, in visible steps of each channel: 3 cannot be told
+    /// from exact, 12 is a preview. k_a of Luft07 eq. 4 is exact either way.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub quality: f64,
     /// Share of the original normal in the realigned one (Luft07 section 4).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub blend: f64,
@@ -98,6 +102,7 @@ impl Default for Params {
             ambient: AmbientTerm::default(),
             generators: GeneratorKind::default(),
             channels: Channels::default(),
+            quality: 3.0,
             blend: 0.0,
         }
     }
@@ -128,12 +133,13 @@ impl Params {
     /// [`BakeError::Parameter`] with name, number and what would be right.
     pub fn check(&self) -> Result<(), BakeError> {
         let radius = self.radius_m.unwrap_or(1.0);
-        let rules: [(&str, f64, bool, &str); 6] = [
+        let rules: [(&str, f64, bool, &str); 7] = [
             ("radius_m", radius, radius > 0.0, "above 0 (a leaf's influence, Luft07 eq. 2)"),
             ("threshold", self.threshold, self.threshold >= 0.0, "0 or above (Luft07 eq. 3)"),
             ("darkest_density", self.darkest_density, self.darkest_density > 0.0, "above 0 (Luft07 eq. 4)"),
             ("darkest_ambient", self.darkest_ambient, (0.0..=1.0).contains(&self.darkest_ambient), "from 0 to 1"),
             ("exponent", self.exponent, self.exponent > 0.0, "above 0 (Luft07 eq. 4)"),
+            ("quality", self.quality, self.quality > 0.0, "above 0 (rms error in visible steps)"),
             ("blend", self.blend, (0.0..=1.0).contains(&self.blend), "from 0 to 1"),
         ];
         match rules.into_iter().find(|(_, value, holds, _)| !(value.is_finite() && *holds)) {
@@ -144,5 +150,13 @@ impl Params {
                 reason: format!("is {value}: must be finite and {rule}"),
             }),
         }
+    }
+
+    /// Lattice points per radius of influence that `quality` asks for. Measured on trees of 700 to 40,000
+    /// leaves, the rms error of the normals is at most 33 degrees over the square of that number (ambient
+    /// terms: less, in their steps); half as much on top for other trees.
+    pub(crate) fn sky_points(&self) -> f64 {
+        const STEPS_AT_ONE_POINT: f64 = 48.0;
+        (STEPS_AT_ONE_POINT / self.quality).sqrt().ceil().clamp(2.0, 12.0)
     }
 }

@@ -10,6 +10,7 @@ use crate::params::{AmbientTerm, Channels, Params};
 use crate::sky::Sky;
 use foliar_plant::Plant;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// A density summed in f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,17 +54,18 @@ pub fn sky(generators: &[Generator], radius: f64, mean_area: f64, query: &Query)
 /// Everything that a bake computes, by the functions above.
 pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Values {
     let queries = reference_queries(foliage, params);
-    let mut own: Vec<f64> = queries.iter().map(|q| field(foliage.own(), foliage.radius, q).density).collect();
+    let mut own: Vec<f64> = queries.par_iter().map(|q| field(foliage.own(), foliage.radius, q).density).collect();
     own.sort_unstable_by(f64::total_cmp);
     let reference = median(&own).max(1.0);
     let plan = SkyPlan::new(plant, foliage, places, params);
-    let radius = Sky::new(foliage).radius();
+    let radius = Sky::new(foliage, params.sky_points()).radius();
     let samples: Vec<SkySample> =
-        plan.queries.iter().map(|q| sky(&foliage.generators, radius, foliage.mean_area, q)).collect();
-    let densities = || places.queries.iter().map(|q| field(&foliage.generators, foliage.radius, q).density);
+        plan.queries.par_iter().map(|q| sky(&foliage.generators, radius, foliage.mean_area, q)).collect();
+    let luft =
+        |q: &Query| luft_ambient(field(&foliage.generators, foliage.radius, q).density, reference, params) as f32;
     let ambient = match params.ambient {
         _ if params.channels == Channels::Normals => Vec::new(),
-        AmbientTerm::Luft => densities().map(|s| luft_ambient(s, reference, params) as f32).collect(),
+        AmbientTerm::Luft => places.queries.par_iter().map(luft).collect(),
         AmbientTerm::Sky => sky_ambients(&plan.of_place, &samples, params),
     };
     let normals = match params.channels {

@@ -2,7 +2,7 @@
 
 use crate::params::Channels;
 use foliar_bake::{Facts, Requirement};
-use foliar_schema::{Ambient, Scene, Sky};
+use foliar_schema::{Ambient, Budget, Scene, Sky};
 use serde_json::{Map, Value, json};
 
 /// Bytes of one `_AMBIENT` value.
@@ -42,7 +42,7 @@ fn exact_bytes(facts: &Facts, ambient: bool, normals: bool) -> u64 {
     AMBIENT_BYTES * (leaf + wood) * u64::from(ambient) + NORMAL_BYTES * leaf * u64::from(normals)
 }
 
-fn implied(_: &Scene, ambient: bool, normals: bool) -> Map<String, Value> {
+fn implied(scene: &Scene, ambient: bool, normals: bool) -> Map<String, Value> {
     let channels = match (ambient, normals) {
         (true, false) => Channels::Ambient,
         (false, true) => Channels::Normals,
@@ -51,6 +51,9 @@ fn implied(_: &Scene, ambient: bool, normals: bool) -> Map<String, Value> {
     let mut params = Map::new();
     if channels != Channels::default() {
         params.insert("channels".into(), json!(channels));
+    }
+    if scene.budget != Budget::default() {
+        params.insert("quality".into(), json!(scene.budget.quality));
     }
     params
 }

@@ -1,10 +1,10 @@
-//! What each place sees of the sky, through the foliage taken for an absorbing medium: extinction on a
-//! grid, one sweep of the grid for each direction, lookups by trilinear interpolation.
+//! What each place sees of the sky, through the foliage taken for an absorbing medium: density on a
+//! lattice, one sweep of it for each direction, lookups by interpolation.
 //!
 //! Evaluated once for each leaf, so that a leaf's corners agree: realigned normals that point outward all
 //! round a crown must break somewhere, and this way never inside a leaf.
 
-use crate::directions::{DIRECTIONS, sky_directions};
+use crate::directions::sky_directions;
 use crate::field::Query;
 use crate::generators::{Foliage, Generator};
 use crate::lattice::Lattice;
@@ -12,71 +12,82 @@ use crate::medium::{SkySample, chord, extinction, see};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Lattice points per radius of influence.
-const POINTS_PER_RADIUS: f64 = 2.0;
-/// Most lattice points: 32 depths of 4 bytes each make 34 MB.
-const MOST_POINTS: usize = 1 << 18;
+/// Most lattice points: 4 bytes each, once and once for each thread.
+const MOST_POINTS: usize = 1 << 20;
+/// Up to so many pairs of balls and queries, chords are summed one by one: exact, and no slower.
+const MOST_PAIRS: usize = 400_000;
 
-/// Optical depths of a crown, ready to be asked.
+/// A crown as an absorbing medium, ready to be asked.
 #[derive(Debug)]
 pub struct Sky {
     lattice: Lattice,
-    directions: [DVec3; DIRECTIONS],
-    /// Direction after direction: depth from each lattice point to the open sky.
-    depths: Vec<f32>,
-    /// Balls by group, in radii: what a query leaves out.
-    own: Vec<Generator>,
+    /// Balls in radii of the medium, the plant's own first and sorted by group.
+    balls: Vec<Generator>,
+    own: usize,
     scale: f64,
 }
 
 impl Sky {
-    /// Sweeps the lattice.
-    pub fn new(foliage: &Foliage) -> Sky {
-        let lattice = Lattice::around(&foliage.generators, foliage.radius, POINTS_PER_RADIUS, MOST_POINTS);
+    /// Prepares a crown. `points_per_radius` of the lattice set the error.
+    pub fn new(foliage: &Foliage, points_per_radius: f64) -> Sky {
+        let lattice = Lattice::around(&foliage.generators, foliage.radius, points_per_radius, MOST_POINTS);
         let scale = extinction(foliage.mean_area, lattice.radius);
         let mut balls = foliage.generators.clone();
         balls.iter_mut().for_each(|ball| ball.position /= lattice.radius);
-        let density = lattice.splat(&balls);
-        let directions = sky_directions();
-        let mut depths = vec![0.0f32; density.len() * DIRECTIONS];
-        // A factor of the extinction may be beyond f32 for a moment; depths are taken in balls and scaled last.
-        depths
-            .par_chunks_mut(density.len().max(1))
-            .zip(directions)
-            .for_each(|(depths, direction)| lattice.sweep(&density, direction, depths));
-        let mut own = balls[..foliage.own].to_vec();
-        own.sort_by_key(|ball| ball.group);
-        Sky { lattice, directions, depths, own, scale }
+        balls[..foliage.own].sort_by_key(|ball| ball.group);
+        Sky { lattice, balls, own: foliage.own, scale }
     }
 
-    /// Radius of the balls of the medium, meters: the radius of influence, or twice the lattice's step
-    /// where memory forbids a finer one.
+    /// Radius of the balls of the medium, meters: the radius of influence, or more where the lattice
+    /// would take too much memory.
     pub fn radius(&self) -> f64 {
         self.lattice.radius
     }
 
     /// The sky at each query.
     pub fn samples(&self, queries: &[Query]) -> Vec<SkySample> {
-        queries.par_iter().map(|query| self.sample(query)).collect()
+        let directions = sky_directions();
+        let depths: Vec<Vec<f32>> = if self.balls.len().saturating_mul(queries.len()) <= MOST_PAIRS {
+            directions.par_iter().map(|toward| self.summed_depths(queries, *toward)).collect()
+        } else {
+            let density = self.lattice.splat(&self.balls);
+            directions.par_iter().map(|toward| self.swept_depths(&density, queries, *toward)).collect()
+        };
+        let sample = |(index, query): (usize, &Query)| {
+            let depths = std::array::from_fn(|d| self.scale * f64::from(depths[d][index]));
+            see(&depths, &directions, query.position)
+        };
+        queries.par_iter().enumerate().map(sample).collect()
     }
 
-    fn sample(&self, query: &Query) -> SkySample {
-        let place = query.position / self.lattice.radius;
-        let start = self.own.partition_point(|ball| ball.group < query.skip);
-        let own = || self.own[start..].iter().take_while(|ball| ball.group == query.skip);
-        let points = self.lattice.len();
-        let inside = self.lattice.stencil(place);
-        let mut depths = [0.0f64; DIRECTIONS];
-        for (index, toward) in self.directions.iter().enumerate() {
-            let stencil = match &inside {
-                Some(stencil) => Some(*stencil),
-                None => self.lattice.entry(place, *toward).and_then(|entry| self.lattice.stencil(entry)),
-            };
-            let plane = &self.depths[index * points..(index + 1) * points];
-            let seen = stencil.map_or(0.0, |s| s.value(plane));
-            let own: f64 = own().map(|b| f64::from(b.weight) * chord(place - b.position, *toward)).sum();
-            depths[index] = self.scale * (f64::from(seen) - own).max(0.0);
-        }
-        see(&depths, &self.directions, query.position)
+    /// Depths toward one direction, before the extinction's scale: chords of all balls.
+    fn summed_depths(&self, queries: &[Query], toward: DVec3) -> Vec<f32> {
+        let depth = |query: &Query| {
+            let place = query.position / self.lattice.radius;
+            let others = self.balls.iter().filter(|ball| ball.group != query.skip);
+            others.map(|ball| f64::from(ball.weight) * chord(place - ball.position, toward)).sum::<f64>() as f32
+        };
+        queries.iter().map(depth).collect()
+    }
+
+    /// The same from a sweep of the lattice, less the chords of the balls that a query leaves out.
+    fn swept_depths(&self, density: &[f32], queries: &[Query], toward: DVec3) -> Vec<f32> {
+        let columns = self.lattice.columns(toward);
+        let swept = self.lattice.sweep(density, &columns);
+        let depth = |query: &Query| {
+            let place = query.position / self.lattice.radius;
+            let seen = self.lattice.value_toward(&swept, &columns, place, toward);
+            let own: f64 =
+                self.group(query.skip).map(|b| f64::from(b.weight) * chord(place - b.position, toward)).sum();
+            (f64::from(seen) - own).max(0.0) as f32
+        };
+        queries.iter().map(depth).collect()
+    }
+
+    /// Own balls of a group.
+    fn group(&self, group: u32) -> impl Iterator<Item = &Generator> {
+        let own = &self.balls[..self.own];
+        let start = own.partition_point(|ball| ball.group < group);
+        own[start..].iter().take_while(move |ball| ball.group == group)
     }
 }

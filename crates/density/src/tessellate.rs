@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// Voxels per radius of influence: balls at the centroids of such voxels move k_a by .017 rms at 2 and
 /// .0035 at 4 on a tree of 40,000 leaves.
-const VOXELS_PER_RADIUS: f64 = 3.0;
+const VOXELS_PER_RADIUS: f64 = 2.0;
 /// Pieces per voxel edge.
 const PIECES_PER_VOXEL: f64 = 3.0;
 /// Most pieces of one plant: pieces grow beyond it.

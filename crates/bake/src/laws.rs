@@ -1,0 +1,265 @@
+//! The laws of the house that can be tested in memory: 2 (own room), 4 (repeatable), 5 (meets its
+//! reference), 6 (in range), 7 (defaults agree), 8 (frame-free). Each room's tests walk them over a list
+//! of odd plants. Laws 1, 3 and 9 need bytes and are tested at the top of the workspace.
+
+use crate::reframe::{Permutation, permuted, scaled, translated};
+use crate::{Array, Baker, Inputs, Layer, Maps, Quiet, Request, run};
+use foliar_plant::sample::Sample;
+use foliar_plant::{Place, Plant};
+use foliar_schema::{CHANNELS, COLUMNS, Channel, channel};
+use serde_json::{Map, Value};
+
+/// A law that does not hold, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("law {law} is broken by {room} on plant {plant:?}: {what}")]
+pub struct Breach {
+    /// Which law: number and name.
+    pub law: &'static str,
+    /// The room.
+    pub room: String,
+    /// Name of the plant.
+    pub plant: String,
+    /// What was found and what would be right.
+    pub what: String,
+}
+
+/// A law: holds for a baker and a plant, or says why not.
+pub type Law = fn(&dyn Baker, &Sample) -> Result<(), Breach>;
+
+/// Every law that can be tested in memory, by name.
+pub const LAWS: &[(&str, Law)] = &[
+    (OWN_ROOM, own_room),
+    (REPEATABLE, repeatable),
+    (MEETS_REFERENCE, meets_reference),
+    (IN_RANGE, in_range),
+    (DEFAULTS_AGREE, defaults_agree),
+    (ORDER_FREE, order_free),
+    (TRANSLATION_FREE, translation_free),
+    (UNIT_FREE, unit_free),
+];
+
+const OWN_ROOM: &str = "2 (own room)";
+const REPEATABLE: &str = "4 (repeatable)";
+const MEETS_REFERENCE: &str = "5 (meets its reference)";
+const IN_RANGE: &str = "6 (in range)";
+const DEFAULTS_AGREE: &str = "7 (defaults agree)";
+const ORDER_FREE: &str = "8 (frame-free: order)";
+const TRANSLATION_FREE: &str = "8 (frame-free: translation)";
+const UNIT_FREE: &str = "8 (frame-free: unit)";
+
+/// Thread counts that must give the same bytes.
+const THREADS: [usize; 3] = [1, 2, 5];
+/// How far a change of order, origin or unit may move a value, in visible steps. Sums in another order
+/// and centers rounded elsewhere move f32 results by some 1e-6; a tenth of what can be seen is far above.
+const FRAME_STEPS: f64 = 0.1;
+
+/// Walks one law over plants.
+///
+/// # Errors
+/// The first [`Breach`].
+pub fn check(law: &str, baker: &dyn Baker, samples: &[Sample]) -> Result<(), Breach> {
+    let laws = LAWS.iter().filter(|(name, _)| *name == law);
+    laws.flat_map(|(_, holds)| samples.iter().map(|sample| holds(baker, sample))).collect()
+}
+
+/// Walks every law over every plant and returns all breaches.
+pub fn check_all(baker: &dyn Baker, samples: &[Sample]) -> Vec<Breach> {
+    let walk =
+        |(_, holds): &(&str, Law)| samples.iter().filter_map(|sample| holds(baker, sample).err()).collect::<Vec<_>>();
+    LAWS.iter().flat_map(walk).collect()
+}
+
+/// Law 2: a room writes only the channels and columns that the contract gives it, and only on parts of the
+/// roles that a channel applies to, one row for each vertex.
+///
+/// # Errors
+/// [`Breach`].
+pub fn own_room(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    let breach = breaches(OWN_ROOM, baker, sample);
+    let layer = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
+    for (key, array) in &layer.attributes {
+        let owned = CHANNELS.iter().find(|c| c.name == key.name && c.room == baker.room());
+        let part = sample.plant.parts().iter().position(|p| p.place == key.place);
+        let (Some(channel), Some(part)) = (owned, part) else {
+            return Err(breach(format!("{} at {:?} is not this room's to write", key.name, key.place)));
+        };
+        let (role, vertices) = (sample.plant.role(part), sample.plant.parts()[part].positions.len());
+        if !channel.roles.contains(&role) || array.rows() != vertices {
+            return Err(breach(format!(
+                "{} has {} rows on a part of {vertices} vertices, role {role}",
+                key.name,
+                array.rows()
+            )));
+        }
+    }
+    let foreign = |c: &&crate::ColumnKey| {
+        !COLUMNS.iter().any(|o| o.class == c.class && o.name == c.property && o.room == baker.room())
+    };
+    match layer.columns.keys().find(foreign) {
+        Some(key) => Err(breach(format!("{}/{} is not this room's to write", key.class, key.property))),
+        None => Ok(()),
+    }
+}
+
+/// Law 4: the same bytes on every run and for any thread count.
+///
+/// # Errors
+/// [`Breach`].
+pub fn repeatable(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    let breach = breaches(REPEATABLE, baker, sample);
+    let first = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
+    for threads in THREADS {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|error| breach(format!("no pool of {threads} threads: {error}")))?;
+        let again = pool.install(|| layer(baker, &sample.plant, &Map::new())).map_err(&breach)?;
+        if again.content_hash() != first.content_hash() || again.record != first.record {
+            return Err(breach(format!("{threads} threads give another layer")));
+        }
+    }
+    Ok(())
+}
+
+/// Law 5: at each rung of the ladder, every channel is within the error that the rung promises.
+///
+/// # Errors
+/// [`Breach`].
+pub fn meets_reference(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    let breach = breaches(MEETS_REFERENCE, baker, sample);
+    let maps = Maps::new();
+    for rung in baker.ladder() {
+        let layer = layer(baker, &sample.plant, &rung.params).map_err(&breach)?;
+        let params = crate::resolve_params(baker, &Map::new(), &rung.params).map_err(|e| breach(e.to_string()))?;
+        let inputs = Inputs { plant: Some(&sample.plant), maps: &maps, neighbors: &[] };
+        let reference = baker.reference(&inputs, &params).map_err(|e| breach(e.to_string()))?;
+        if !layer.attributes.keys().eq(reference.attributes.keys()) {
+            return Err(breach(format!("rung {}: reference and bake write different channels", rung.name)));
+        }
+        for name in &layer.record.writes {
+            let pairs =
+                layer.attributes.iter().zip(reference.attributes.values()).filter(|((key, _), _)| key.name == *name);
+            let Some(channel) = channel(name) else { continue };
+            let errors = pairs.flat_map(|((_, a), b)| steps(channel, a, b));
+            let rms = foliar_numerics::ErrorStats::of(errors).rms;
+            if rms.is_nan() || rms > rung.promise_steps {
+                return Err(breach(format!(
+                    "rung {}: {name} is off by {rms} steps rms, promised {}",
+                    rung.name, rung.promise_steps
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Law 6: nothing that is no number, nothing outside a channel's declared range, facts included.
+///
+/// # Errors
+/// [`Breach`].
+pub fn in_range(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    let breach = breaches(IN_RANGE, baker, sample);
+    // `run` itself refuses attributes and columns out of range.
+    let layer = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
+    match layer.record.facts.iter().find(|(_, value)| value.is_null()) {
+        Some((name, _)) => Err(breach(format!("fact {name} is no finite number"))),
+        None => Ok(()),
+    }
+}
+
+/// Law 7: no parameters, and every default said aloud, mean the same.
+///
+/// # Errors
+/// [`Breach`].
+pub fn defaults_agree(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    let breach = breaches(DEFAULTS_AGREE, baker, sample);
+    let silent = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
+    let defaults = crate::resolve_params(baker, &Map::new(), &Map::new()).map_err(|e| breach(e.to_string()))?;
+    let aloud = layer(baker, &sample.plant, &defaults).map_err(&breach)?;
+    if silent.content_hash() != aloud.content_hash() || silent.record.resolved != aloud.record.resolved {
+        return Err(breach("defaults said aloud give another layer".into()));
+    }
+    Ok(())
+}
+
+/// Law 8: renumbering vertices and leaves permutes the result.
+///
+/// # Errors
+/// [`Breach`].
+pub fn order_free(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    let other = permuted(&sample.plant);
+    same_after(ORDER_FREE, baker, sample, other, |place, array| {
+        let part = sample.plant.parts().iter().position(|p| p.place == place);
+        let vertices = part.map_or(0, |p| sample.plant.parts()[p].positions.len());
+        Permutation::of(vertices).apply(array)
+    })
+}
+
+/// Law 8: a move of the plant changes nothing.
+///
+/// # Errors
+/// [`Breach`].
+pub fn translation_free(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    same_after(TRANSLATION_FREE, baker, sample, translated(&sample.plant), |_, array| array.clone())
+}
+
+/// Law 8: a change of unit changes nothing that is not a length.
+///
+/// # Errors
+/// [`Breach`].
+pub fn unit_free(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
+    same_after(UNIT_FREE, baker, sample, scaled(&sample.plant), |_, array| array.clone())
+}
+
+/// Bakes the plant and its changed copy; channels without a unit must agree.
+fn same_after(
+    law: &'static str,
+    baker: &dyn Baker,
+    sample: &Sample,
+    changed: Result<Plant, foliar_plant::PlantError>,
+    map: impl Fn(Place, &Array) -> Array,
+) -> Result<(), Breach> {
+    let breach = breaches(law, baker, sample);
+    let changed = changed.map_err(|error| breach(error.to_string()))?;
+    let before = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
+    let after = layer(baker, &changed, &Map::new()).map_err(&breach)?;
+    if !before.attributes.keys().eq(after.attributes.keys()) {
+        return Err(breach("other channels were written".into()));
+    }
+    for ((key, a), b) in before.attributes.iter().zip(after.attributes.values()) {
+        let Some(channel) = channel(&key.name) else { continue };
+        let errors = steps(channel, &map(key.place, a), b);
+        let worst = errors.iter().enumerate().max_by(|x, y| x.1.total_cmp(y.1));
+        if let Some((row, worst)) = worst.filter(|(_, worst)| worst.is_nan() || **worst > FRAME_STEPS) {
+            return Err(breach(format!("{} moves by {worst} visible steps at row {row}", key.name)));
+        }
+    }
+    Ok(())
+}
+
+/// Differences in visible steps, row by row: of values, or of angles for unit vectors.
+pub fn steps(channel: &Channel, a: &Array, b: &Array) -> Vec<f64> {
+    let (Some(x), Some(y)) = (a.as_f32(), b.as_f32()) else { return vec![f64::NAN] };
+    if x.len() != y.len() {
+        return vec![f64::NAN];
+    }
+    let rows = x.chunks_exact(channel.width).zip(y.chunks_exact(channel.width));
+    rows.map(|(p, q)| {
+        let square: f64 = p.iter().zip(q).map(|(p, q)| (f64::from(*p) - f64::from(*q)).powi(2)).sum();
+        let distance = square.sqrt();
+        // The angle between unit vectors, from their chord: exact where they nearly agree.
+        let difference =
+            if channel.unit_length { 2.0 * libm::asin((distance / 2.0).min(1.0)).to_degrees() } else { distance };
+        difference / channel.visible_step
+    })
+    .collect()
+}
+
+fn layer(baker: &dyn Baker, plant: &Plant, given: &Map<String, Value>) -> Result<Layer, String> {
+    let maps = Maps::new();
+    let inputs = Inputs { plant: Some(plant), maps: &maps, neighbors: &[] };
+    let request = Request { given: given.clone(), ..Request::default() };
+    run(baker, &inputs, &request, &Quiet).map(|(layer, _)| layer).map_err(|error| error.to_string())
+}
+
+fn breaches<'a>(law: &'static str, baker: &'a dyn Baker, sample: &'a Sample) -> impl Fn(String) -> Breach + 'a {
+    move |what| Breach { law, room: baker.room().into(), plant: sample.name.into(), what }
+}

@@ -1,0 +1,6 @@
+//! Tests of the room: reference values, laws of the house, laws of its own, extremes, times.
+
+mod laws;
+mod oracle;
+mod plants;
+mod speed;
