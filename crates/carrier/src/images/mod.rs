@@ -136,6 +136,10 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Raster, CarrierError> {
         let problem = format!("is {}, not PNG, JPEG, TIFF, TGA or BMP", format.name());
         return Err(CarrierError::input(name, "byte 0", problem, "convert it to PNG"));
     };
+    if format == Format::Jpeg && !jpeg_ends(bytes) {
+        let problem = format!("is JPEG cut short after {} bytes", bytes.len());
+        return Err(CarrierError::input(name, "", problem, "copy or export the picture again"));
+    }
     let broken = |error: image::ImageError| {
         CarrierError::input(name, "", format!("is damaged {}: {error}", format.name()), "export the picture again")
     };
@@ -149,6 +153,12 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Raster, CarrierError> {
     let rgba = reader.decode().map_err(broken)?.into_rgba8().into_raw();
     let has_alpha = rgba.chunks_exact(4).any(|p| p[3] < 255);
     Ok(Raster { name: name.into(), width, height, rgba, has_alpha })
+}
+
+/// Whether the end marker follows the last scan: the decoder fills up what is missing with gray.
+fn jpeg_ends(bytes: &[u8]) -> bool {
+    let last_scan = memchr::memmem::rfind(bytes, b"\xFF\xDA").unwrap_or(0);
+    memchr::memmem::find(&bytes[last_scan..], b"\xFF\xD9").is_some()
 }
 
 fn check_size(width: u32, height: u32, bytes: usize, name: &str) -> Result<(), CarrierError> {
