@@ -1,1 +1,16 @@
-//! End to end.
+//! End to end: the real binaries, real files, exit statuses and messages.
+
+#![expect(clippy::unwrap_used, clippy::print_stderr, reason = "a test that cannot go on fails; a skipped one says so")]
+
+mod bad_input;
+mod bake;
+mod common;
+mod config;
+mod density;
+mod generate;
+mod import;
+mod inspect;
+mod laws;
+mod layers;
+mod streams;
+mod view;

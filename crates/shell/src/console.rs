@@ -75,10 +75,9 @@ impl Console {
         }
     }
 
-    /// A finding; notes need `-v`.
+    /// A finding.
     pub fn finding(&self, finding: &Finding) {
-        let least = if finding.severity == Severity::Note { Verbosity::Verbose } else { Verbosity::Normal };
-        if self.verbosity >= least {
+        if self.verbosity >= Verbosity::Normal {
             log_line(&finding_text(finding));
         }
     }

@@ -157,7 +157,7 @@ pub fn output(help: &'static str) -> Arg {
 pub fn with_voice(command: Command) -> Command {
     command
         .arg(switch("quiet", "Prints errors only").short('q').conflicts_with("verbose"))
-        .arg(switch("verbose", "Prints notes, and each step with its time").short('v'))
+        .arg(switch("verbose", "Prints each step with its time").short('v'))
         .arg(
             Arg::new("format")
                 .long("format")

@@ -24,7 +24,8 @@ impl Sources<'_> {
     /// # Errors
     /// [`Failure::Usage`] from either.
     pub fn new<'a>(fields: &'a Fields, direct: Direct, matches: &clap::ArgMatches) -> Result<Sources<'a>, Failure> {
-        let variables = std::env::vars_os().filter_map(|(k, v)| Some((k.into_string().ok()?, v.into_string().ok()?)));
+        let variables =
+            std::env::vars_os().map(|(k, v)| (k.to_string_lossy().into_owned(), v.to_string_lossy().into_owned()));
         let environment = from_environment(fields, variables)?;
         let flags = crate::flags::given(fields, direct, matches)?;
         Ok(Sources { fields, environment, flags })

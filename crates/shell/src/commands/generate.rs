@@ -69,25 +69,29 @@ fn completions(folder: &Path, mut command: Command) -> Result<(), Failure> {
 }
 
 fn schemas(call: &Call, folder: &Path) -> Result<(), Failure> {
-    write_text(&folder.join("foliar.toml.schema.json"), pretty(&configuration(call)))?;
+    write_text(&folder.join("foliar.toml.schema.json"), pretty(&configuration(call)?))?;
     let extension = schemars::schema_for!(FoliageExtension).to_value();
     write_text(&folder.join("FOLIAR_foliage.schema.json"), pretty(&extension))
 }
 
 /// JSON Schema of `foliar.toml`: one property per section, definitions of all sections together.
-fn configuration(call: &Call) -> Value {
+fn configuration(call: &Call) -> Result<Value, Failure> {
     let (mut properties, mut definitions) = (Map::new(), Map::new());
     for (section, schema) in call.fields.schemas() {
         let mut schema = schema.clone();
         if let Some(object) = schema.as_object_mut() {
             object.shift_remove("$schema");
-            if let Some(Value::Object(own)) = object.shift_remove("$defs") {
-                definitions.extend(own);
+            let own = object.shift_remove("$defs").and_then(|own| own.as_object().cloned()).unwrap_or_default();
+            for (name, definition) in own {
+                if definitions.insert(name.clone(), definition.clone()).is_some_and(|other| other != definition) {
+                    let text = format!("two sections define {name} differently: give one of the types another name");
+                    return Err(Failure::Fault(text));
+                }
             }
         }
         properties.insert(section.clone(), schema);
     }
-    json!({
+    Ok(json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "foliar.toml",
         "description": format!("Configuration of foliar; not in this version: {}", LATER_ROOMS.join(", ")),
@@ -95,5 +99,5 @@ fn configuration(call: &Call) -> Value {
         "properties": properties,
         "additionalProperties": false,
         "$defs": definitions,
-    })
+    }))
 }

@@ -1,0 +1,32 @@
+//! `foliar-view`: pictures of what a file holds.
+
+use crate::common::{FOLIAR, VIEW, folder, output, run, text, tree};
+
+const SMALL: [&str; 6] = ["--width-px", "64", "--height-px", "48", "--samples", "1"];
+
+#[test]
+fn a_baked_tree_a_raw_one_and_a_channel_are_drawn() {
+    let (here, baked) = (folder(), output("view.glb"));
+    let obj = tree(here.path(), 60);
+    run(FOLIAR, &["bake", text(&obj), "-o", text(&baked)]).expect(0, &[]);
+    let drawn = |name: &str, input, more: &[&str]| {
+        let picture = here.path().join(name);
+        run(VIEW, &[&[input, "-o", text(&picture)], &SMALL[..], more].concat()).expect(0, &[]);
+        std::fs::read(picture).unwrap()
+    };
+    let raw = drawn("raw.png", text(&obj), &["--look", "plain"]);
+    let lit = drawn("lit.png", text(&baked), &[]);
+    let channel = drawn("channel.png", text(&baked), &["--channel", "_AMBIENT"]);
+    assert!(raw != lit && lit != channel, "three pictures of three things");
+    assert_eq!(drawn("again.png", text(&baked), &[]), lit);
+}
+
+#[test]
+fn a_channel_that_is_not_there_and_a_bad_ending_are_refused() {
+    let here = folder();
+    let obj = tree(here.path(), 60);
+    let picture = here.path().join("x.png");
+    run(VIEW, &[text(&obj), "-o", text(&picture), "--channel", "_WIND_WEIGHTS"])
+        .expect(2, &["_WIND_WEIGHTS", "layers hold"]);
+    run(VIEW, &[text(&obj), "-o", "x.jpg"]).expect(2, &["must end in .png"]);
+}
