@@ -70,7 +70,11 @@ fn gltf_content() {
     refused("mesh.glb", &triangle(|j| j["nodes"][0]["mesh"] = 3.into()), 3, &["/nodes/0/mesh"]);
     let infinite = |j: &mut Value| j["nodes"][0]["translation"] = json!([1e308, 0, 0]);
     refused("far.glb", &triangle(infinite), 3, &[]);
-    refused("draco.glb", &triangle(|j| j["extensionsRequired"] = json!(["KHR_draco_mesh_compression"])), 3, &["draco"]);
+    let draco = |j: &mut Value| {
+        j["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
+        j["meshes"][0]["primitives"][0]["extensions"] = json!({"KHR_draco_mesh_compression": {"bufferView": 0}});
+    };
+    refused("draco.glb", &triangle(draco), 3, &["KHR_draco_mesh_compression"]);
     for (name, uri, said) in [
         ("outside.glb", "../secret.bin", "--search"),
         ("absolute.glb", "/etc/passwd", "/etc/passwd"),

@@ -201,3 +201,18 @@ fn a_real_tree_bakes_all_the_way() {
     let run = run(FOLIAR, &["bake", text(&input), "-o", text(&out)]).expect(0, &[]);
     assert!(run.stdout.contains("written"), "{run:?}");
 }
+
+#[test]
+fn findings_come_in_the_formats_of_those_who_show_them() {
+    let (here, out) = (folder(), output("bake-formats.glb"));
+    let input = tree(here.path(), 20);
+    let bake =
+        |format| run(FOLIAR, &["bake", text(&input), "-o", text(&out), "--format", format]).expect(0, &[]).stdout;
+    let sarif: Value = serde_json::from_str(&bake("sarif")).unwrap();
+    assert_eq!(sarif["runs"][0]["results"][0]["ruleId"], "IMPORT-UP");
+    assert!(bake("junit").contains("<testcase"), "JUnit");
+    assert!(bake("github").starts_with("::notice file="), "GitHub");
+    let line: Value = serde_json::from_str(&bake("json")).unwrap();
+    assert_eq!(line["status"], "unchanged");
+    run(FOLIAR, &["inspect", text(&out), "--format", "sarif"]).expect(2, &["--format"]);
+}

@@ -95,7 +95,7 @@ fn bake_rooms(baking: &Baking, loaded: &Loaded, rows: &[Row], report: &mut Repor
     let bar = Bar::new(baking.console.draws_progress());
     let cache = baking.options.cache.as_deref().map(Cache::new);
     let rooms = rooms::bake(loaded, rows, cache.as_ref(), &bar)?;
-    report.findings.extend(rooms.iter().flat_map(|room| room.findings.iter().cloned()));
+    report.find(rooms.iter().flat_map(|room| room.findings.iter().cloned()));
     baking.console.log(&report.lap("rooms"));
     Ok(rooms)
 }
@@ -109,9 +109,9 @@ fn finish(
     output: &Path,
     report: &mut Report,
 ) -> Result<Vec<OutputFile>, Failure> {
-    let layers = all_layers(loaded, rooms, &mut report.findings);
+    let (layers, left_out) = all_layers(loaded, rooms);
     let (document, findings) = foliar_carrier::assemble(&loaded.document, &layers)?;
-    report.findings.extend(findings);
+    report.find(left_out.into_iter().chain(findings));
     report.rooms(rows, rooms, &document);
     baking.console.log(&report.lap("assemble"));
     let mut files = Vec::new();
@@ -124,20 +124,18 @@ fn finish(
     Ok(files)
 }
 
-/// Structure, what was baked now, and what the file held already and still belongs to it.
-fn all_layers(loaded: &Loaded, rooms: &[Room], findings: &mut Vec<Finding>) -> Vec<Layer> {
+/// Structure, what was baked now, and what the file held already and still belongs to it; what does
+/// not is left out, with a finding.
+fn all_layers(loaded: &Loaded, rooms: &[Room]) -> (Vec<Layer>, Vec<Finding>) {
     let mut layers = vec![loaded.structure.clone()];
     layers.extend(rooms.iter().map(|room| room.layer.clone()));
     let structure = loaded.structure.content_hash();
-    for layer in &loaded.layers {
+    let mut findings = Vec::new();
+    let baked = |layer: &&Layer| rooms.iter().any(|room| room.layer.record.room == layer.record.room);
+    for layer in loaded.layers.iter().filter(|layer| !baked(layer)) {
         let record = &layer.record;
-        let baked = rooms.iter().any(|room| room.layer.record.room == record.room);
-        let stale = record.reads.get(names::ROOM_STRUCTURE).is_some_and(|hash| *hash != structure)
-            || record.reads.get("base").is_some_and(|hash| *hash != loaded.base_hash);
-        if baked {
-            continue;
-        }
-        if stale {
+        let differs = |name: &str, hash: &String| record.reads.get(name).is_some_and(|read| read != hash);
+        if differs(names::ROOM_STRUCTURE, &structure) || differs("base", &loaded.base_hash) {
             let text =
                 format!("{} was baked from another base or structure and was left out: run foliar bake", record.room);
             findings.push(Finding::new(&code::STALE, text));
@@ -145,7 +143,7 @@ fn all_layers(loaded: &Loaded, rooms: &[Room], findings: &mut Vec<Finding>) -> V
             layers.push(layer.clone());
         }
     }
-    layers
+    (layers, findings)
 }
 
 fn main_files(loaded: &Loaded, rooms: &[Room], document: &Document, output: &Path) -> Result<Vec<OutputFile>, Failure> {

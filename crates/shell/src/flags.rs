@@ -158,13 +158,18 @@ pub fn with_voice(command: Command) -> Command {
     command
         .arg(switch("quiet", "Prints errors only").short('q').conflicts_with("verbose"))
         .arg(switch("verbose", "Prints each step with its time").short('v'))
-        .arg(
-            Arg::new("format")
-                .long("format")
-                .value_name("FORMAT")
-                .value_parser(["human", "json"])
-                .help("How results are printed: for people (human) or as JSON lines (json)"),
-        )
+        .arg(format(["human", "json"], "How results are printed: for people (human) or as JSON (json)"))
+}
+
+/// `--format`.
+fn format<const N: usize>(words: [&'static str; N], help: &'static str) -> Arg {
+    Arg::new("format").long("format").value_name("FORMAT").value_parser(words).help(help)
+}
+
+/// More formats, for commands whose findings matter.
+pub fn with_finding_formats(command: Command) -> Command {
+    let help = "How results are printed: for people, as JSON lines, or the findings for machines that show them";
+    command.mut_arg("format", |_| format(["human", "json", "sarif", "junit", "github"], help))
 }
 
 /// Flags of everything that bakes.

@@ -7,6 +7,7 @@ mod commands;
 pub mod config;
 mod console;
 mod failure;
+mod finding_formats;
 mod flags;
 mod gather;
 mod load;

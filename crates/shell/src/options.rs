@@ -13,6 +13,12 @@ pub enum Format {
     Human,
     /// JSON.
     Json,
+    /// Findings as SARIF 2.1.0.
+    Sarif,
+    /// Findings as JUnit XML.
+    Junit,
+    /// Findings as commands of GitHub's workflow log.
+    Github,
 }
 
 /// What a run does about its output.
@@ -95,7 +101,13 @@ impl Options {
             explain_roles: is("explain-roles"),
             config: path("config"),
             no_config: is("no-config"),
-            format: if word("format") == Some("json") { Format::Json } else { Format::Human },
+            format: match word("format") {
+                Some("json") => Format::Json,
+                Some("sarif") => Format::Sarif,
+                Some("junit") => Format::Junit,
+                Some("github") => Format::Github,
+                _ => Format::Human,
+            },
             verbosity: match (is("quiet"), is("verbose")) {
                 (true, _) => Verbosity::Quiet,
                 (_, true) => Verbosity::Verbose,

@@ -53,10 +53,19 @@ impl Report {
         format!("{stage}: {seconds:.3} s")
     }
 
+    /// Takes findings; those that name no file are about the asset.
+    pub fn find(&mut self, findings: impl IntoIterator<Item = Finding>) {
+        let asset = self.json.get("asset").and_then(Value::as_str).map(String::from);
+        self.findings.extend(findings.into_iter().map(|mut finding| {
+            finding.file = finding.file.or_else(|| asset.clone());
+            finding
+        }));
+    }
+
     /// What was read and found.
     pub fn loaded(&mut self, loaded: &Loaded) {
         self.read.clone_from(&loaded.files);
-        self.findings.extend(loaded.findings.iter().cloned());
+        self.find(loaded.findings.iter().cloned());
         let source = match loaded.source {
             SourceKind::Obj => "obj",
             SourceKind::Gltf => "gltf",

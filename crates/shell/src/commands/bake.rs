@@ -7,7 +7,7 @@ use crate::gather::Sources;
 use crate::options::{Format, Mode, Options};
 use crate::outputs::{self, Job};
 use crate::report::Report;
-use crate::{Failure, console::Console};
+use crate::{Failure, console::Console, finding_formats};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -51,6 +51,9 @@ pub fn bake(
         if failed && !options.keep_going {
             break;
         }
+    }
+    if let Some(text) = finding_formats::text(options.format, &done.reports) {
+        console.result(&text)?;
     }
     write_lists(options, &done)?;
     verdict(&jobs, done)
@@ -100,6 +103,9 @@ fn one(baking: &Baking, job: &Job, several: bool, done: &mut Done) -> Result<boo
 
 /// One line per asset: JSON for several or where asked for, words else.
 fn tell(baking: &Baking, report: &Map<String, Value>, several: bool) -> Result<(), Failure> {
+    if !matches!(baking.options.format, Format::Human | Format::Json) {
+        return Ok(());
+    }
     if several || baking.options.format == Format::Json {
         return baking.console.result(&Value::from(line(report)).to_string());
     }
@@ -190,6 +196,6 @@ pub fn tell_written(
     let name = output.display().to_string();
     match options.format {
         Format::Json => console.result(&json!({"output": name, "status": status.word()}).to_string()),
-        Format::Human => console.result(&format!("{name}: {}", status.word())),
+        _ => console.result(&format!("{name}: {}", status.word())),
     }
 }

@@ -26,7 +26,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
                 call.fields.all().iter().map(|field| (field.dotted(), to_json(field, &settings))).collect();
             console.result(&format!("{:#}", Value::from(lines)))
         }
-        Format::Human => console.result(table(call.fields.all(), &settings).trim_end()),
+        _ => console.result(table(call.fields.all(), &settings).trim_end()),
     }
 }
 

@@ -23,7 +23,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         let held = if is_layer(input) { layer_file(input)? } else { asset(&sources, &options, &console, input)? };
         match options.format {
             Format::Json => console.result(&held.to_string())?,
-            Format::Human => console.result(text(&held).trim_end())?,
+            _ => console.result(text(&held).trim_end())?,
         }
     }
     Ok(())

@@ -72,7 +72,7 @@ fn baking(command: Command, fields: &Fields, direct: Direct) -> Command {
     let command = command
         .arg(flags::inputs("INPUT", "OBJ, glTF or GLB files; - is standard input").required(true))
         .arg(flags::output("Output: .glb, .gltf, .layer (one room alone), or - for standard output"));
-    flags::with_voice(flags::with_fields(flags::with_baking(command), fields, direct))
+    flags::with_finding_formats(flags::with_voice(flags::with_fields(flags::with_baking(command), fields, direct)))
 }
 
 fn bake(bakers: &[&dyn Baker], fields: &Fields) -> Command {

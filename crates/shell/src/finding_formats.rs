@@ -1,0 +1,156 @@
+//! Findings for machines that show them to people: SARIF 2.1.0, JUnit XML, GitHub's workflow commands.
+//! A failed asset is shown like a finding of severity error.
+
+use crate::options::Format;
+use foliar_schema::{CODES, Finding, Severity};
+use serde_json::{Map, Value, json};
+
+/// Code under which a failure is shown.
+const FAILED: &str = "FAILED";
+
+/// The findings of all assets in this format; nothing for formats that tell them as they go.
+pub fn text(format: Format, reports: &[Map<String, Value>]) -> Option<String> {
+    match format {
+        Format::Human | Format::Json => None,
+        Format::Sarif => Some(format!("{:#}", sarif(reports))),
+        Format::Junit => Some(junit(reports)),
+        Format::Github => Some(reports.iter().flat_map(findings).map(|f| github(&f)).collect::<Vec<_>>().join("\n")),
+    }
+}
+
+/// Name of the asset of a report.
+fn asset(report: &Map<String, Value>) -> &str {
+    report.get("asset").and_then(Value::as_str).unwrap_or_default()
+}
+
+fn findings(report: &Map<String, Value>) -> Vec<Finding> {
+    let listed = report.get("findings").cloned().unwrap_or_default();
+    let mut findings: Vec<Finding> = serde_json::from_value(listed).unwrap_or_default();
+    findings.extend(report.get("error").and_then(Value::as_str).map(|message| Finding {
+        code: FAILED.into(),
+        severity: Severity::Error,
+        message: message.into(),
+        place: None,
+        file: Some(asset(report).into()),
+    }));
+    findings
+}
+
+/// Line of a text file, where the place is one.
+fn line(finding: &Finding) -> Option<u64> {
+    finding.place.as_ref()?.strip_prefix("line ")?.parse().ok()
+}
+
+fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Note => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    }
+}
+
+fn sarif(reports: &[Map<String, Value>]) -> Value {
+    let rule = |info: &foliar_schema::CodeInfo| json!({"id": info.code, "shortDescription": {"text": info.doc}});
+    let result = |finding: Finding| {
+        let mut location = json!({"physicalLocation": {"artifactLocation": {"uri": finding.file}}});
+        if let Some(line) = line(&finding) {
+            location["physicalLocation"]["region"] = json!({"startLine": line});
+        } else if let Some(place) = &finding.place {
+            location["logicalLocations"] = json!([{"fullyQualifiedName": place}]);
+        }
+        json!({
+            "ruleId": finding.code,
+            "level": severity(finding.severity),
+            "message": {"text": finding.message},
+            "locations": [location],
+        })
+    };
+    json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": {"driver": {
+                "name": "foliar",
+                "version": env!("CARGO_PKG_VERSION"),
+                "rules": CODES.iter().map(rule).collect::<Vec<_>>(),
+            }},
+            "results": reports.iter().flat_map(findings).map(result).collect::<Vec<_>>(),
+        }],
+    })
+}
+
+/// One suite per asset; notes pass, all else fails.
+fn junit(reports: &[Map<String, Value>]) -> String {
+    let suites: String = reports.iter().map(suite).collect();
+    format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"foliar\">\n{suites}</testsuites>")
+}
+
+fn suite(report: &Map<String, Value>) -> String {
+    let name = xml(asset(report));
+    let all = findings(report);
+    let failed = all.iter().filter(|finding| finding.severity > Severity::Note).count();
+    let case = |finding: &Finding| {
+        let text = xml(&format!("{}: {}", finding.place.as_deref().unwrap_or("file"), finding.message));
+        let tag = if finding.severity > Severity::Note { "failure" } else { "system-out" };
+        let open = format!("<testcase classname=\"{name}\" name=\"{}\">", finding.code);
+        format!("    {open}<{tag}>{text}</{tag}></testcase>\n")
+    };
+    let bake =
+        if failed == 0 { format!("    <testcase classname=\"{name}\" name=\"bake\"/>\n") } else { String::new() };
+    let cases: String = all.iter().map(case).collect();
+    let tests = all.len() + usize::from(failed == 0);
+    format!("  <testsuite name=\"{name}\" tests=\"{tests}\" failures=\"{failed}\">\n{bake}{cases}  </testsuite>\n")
+}
+
+/// Text as XML has it; control characters that XML has not are left out.
+fn xml(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    text.chars().filter(|c| !c.is_control() || *c == '\n').collect()
+}
+
+fn github(finding: &Finding) -> String {
+    let word = if finding.severity == Severity::Note { "notice" } else { severity(finding.severity) };
+    let data = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
+    let property = |text: &str| data(text).replace(':', "%3A").replace(',', "%2C");
+    let line = line(finding).map_or_else(String::new, |line| format!(",line={line}"));
+    let file = property(finding.file.as_deref().unwrap_or_default());
+    format!("::{word} file={file}{line},title={}::{}", finding.code, data(&finding.message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foliar_schema::code;
+
+    fn report() -> Map<String, Value> {
+        let finding = Finding::new(&code::IMPORT_MTL, "a <b> & \"c\",\n50 %").at("line 7").in_file("a,b.obj");
+        let report = json!({"asset": "a,b.obj", "findings": [finding], "error": "broken"});
+        report.as_object().unwrap().clone()
+    }
+
+    #[test]
+    fn sarif_names_rule_level_file_and_line() {
+        let all = sarif(&[report()]);
+        let result = &all["runs"][0]["results"][0];
+        assert_eq!((&result["ruleId"], &result["level"]), (&"IMPORT-MTL".into(), &"warning".into()));
+        let place = &result["locations"][0]["physicalLocation"];
+        assert_eq!((&place["artifactLocation"]["uri"], &place["region"]["startLine"]), (&"a,b.obj".into(), &7.into()));
+        assert_eq!(all["runs"][0]["results"][1]["ruleId"], "FAILED");
+    }
+
+    #[test]
+    fn junit_counts_and_escapes() {
+        let text = junit(&[report()]);
+        assert!(text.contains("tests=\"2\" failures=\"2\""), "{text}");
+        assert!(text.contains("a &lt;b&gt; &amp; &quot;c&quot;"), "{text}");
+        let clean = junit(&[json!({"asset": "a.obj", "findings": []}).as_object().unwrap().clone()]);
+        assert!(clean.contains("tests=\"1\" failures=\"0\"") && clean.contains("name=\"bake\""), "{clean}");
+    }
+
+    #[test]
+    fn github_escapes_what_its_commands_are_made_of() {
+        let all = text(Format::Github, &[report()]).unwrap();
+        let first = all.lines().next().unwrap();
+        assert_eq!(first, "::warning file=a%2Cb.obj,line=7,title=IMPORT-MTL::a <b> & \"c\",%0A50 %25");
+    }
+}
