@@ -1,6 +1,6 @@
 //! Geometry: forms of faces, names, line ends, encodings, damage, frame and unit, normals.
 
-use super::{converted, findings, read, refused, second_reader};
+use super::{converted, findings, keep, read, refused, second_reader};
 use foliar_carrier::obj::{Corner, NONE, parse};
 use foliar_schema::{Import, Unit, Up};
 use std::fmt::Write as _;
@@ -94,8 +94,9 @@ fn concave_polygons_are_cut_inside() {
 #[test]
 fn a_mix_of_faces_with_and_without_normals_gets_all_normals() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 4 2\n";
-    let meshes = second_reader(&converted(text, &Import::default()).document);
-    let mesh = &meshes[0];
+    let converted = converted(text, &Import::default());
+    keep("mixed_normals", &converted.document);
+    let mesh = &second_reader(&converted.document)[0];
     assert_eq!(mesh.normals.len(), mesh.positions.len());
     assert_eq!(mesh.positions.len(), 6, "a corner with a normal and one without are two vertices");
     assert!(mesh.normals[..3].iter().all(|n| *n == [0.0, 0.0, 1.0]));
@@ -201,6 +202,7 @@ fn one_mesh_per_object_and_material_in_order() {
     let names: Vec<_> = json["nodes"].as_array().unwrap().iter().map(|n| n["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["trunk", "trunk", "crown"]);
     assert_eq!(second_reader(&converted.document)[0].indices.len(), 6);
+    keep("objects_and_materials", &converted.document);
     let materials: Vec<_> = (0..3).map(|m| json["meshes"][m]["primitives"][0]["material"].as_u64().unwrap()).collect();
     assert_eq!(materials, [0, 1, 0]);
     assert_eq!(json["materials"][0]["name"], "old bark");

@@ -75,6 +75,13 @@ fn second_reader(document: &Document) -> Vec<Read> {
         .collect()
 }
 
+/// Leaves a GLB for the Khronos validator, which goes over all that tests write.
+fn keep(name: &str, document: &Document) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/foliar-test-outputs/obj");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join(format!("{name}.glb")), document.to_glb().unwrap()).unwrap();
+}
+
 /// The folder with shared data, where there is one.
 fn shared() -> Option<PathBuf> {
     let named = std::env::var_os("FOLIAR_SHARED").map(PathBuf::from);

@@ -1,7 +1,7 @@
 //! Pictures of OBJ materials: what passes unchanged, what becomes PNG, joined alpha, bump maps, loose
 //! images, and what cannot be read.
 
-use super::{Converted, converted_in, findings, second_reader};
+use super::{Converted, converted_in, findings, keep, second_reader};
 use foliar_carrier::images::{self, Format};
 use foliar_carrier::obj::convert;
 use foliar_schema::Import;
@@ -29,11 +29,16 @@ fn cut_out(x: u32, y: u32) -> [u8; 4] {
     [x as u8 * 30, y as u8 * 30, 40, if x < 4 { 255 } else { 0 }]
 }
 
+/// Converts a triangle with this library beside these files, and leaves it for the validator.
 fn tree(mtl: &str, files: &[(&str, Vec<u8>)], import: &Import) -> Converted {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("t.mtl"), mtl).unwrap();
     files.iter().for_each(|(name, bytes)| std::fs::write(folder.path().join(name), bytes).unwrap());
-    converted_in(folder.path(), FACE, import)
+    let converted = converted_in(folder.path(), FACE, import);
+    let words: String = mtl.chars().filter(char::is_ascii_alphanumeric).collect();
+    let bytes: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
+    keep(&format!("texture_{words}_{bytes}"), &converted.document);
+    converted
 }
 
 /// Bytes and MIME type of an image of the document.

@@ -1,6 +1,6 @@
 //! Every OBJ of the shared trees: what `expected.json` says, and what tobj reads.
 
-use super::{converted_in, second_reader, shared};
+use super::{converted_in, keep, second_reader, shared};
 use foliar_carrier::obj::{Converted, convert, parse};
 use foliar_schema::{Import, Up};
 use std::collections::{BTreeMap, BTreeSet};
@@ -107,6 +107,8 @@ fn every_tree_converts_to_sound_meshes() {
     for path in objs(&shared) {
         let text = String::from_utf8(std::fs::read(&path).unwrap()).unwrap();
         let converted = converted_in(path.parent().unwrap(), &text, &Import::default());
+        let name = path.strip_prefix(shared.join("trees")).unwrap().display().to_string().replace('/', "_");
+        keep(&name, &converted.document);
         for (mesh, read) in second_reader(&converted.document).iter().enumerate() {
             // glTF's tolerance for unit vectors.
             let unit = |v: &[f32]| (v.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>().sqrt() - 1.0).abs() < 0.00674;
