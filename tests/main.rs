@@ -7,6 +7,7 @@ mod bake;
 mod common;
 mod config;
 mod density;
+mod expected;
 mod generate;
 mod import;
 mod inspect;
