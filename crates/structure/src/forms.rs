@@ -14,6 +14,8 @@ const SIMILAR: f64 = 30.0;
 const OUTLINE: usize = 24;
 /// So few large cards show the whole plant each.
 const FEW: usize = 4;
+/// A body whose spread is at least this share of the plant's diagonal is a trunk or a bough.
+const TRUNK: f64 = 0.1;
 /// Wood fills no more than this share of the ball with its spread, averaged over its area.
 const SLENDER: f64 = 0.08;
 
@@ -30,6 +32,8 @@ pub(crate) struct Forms {
     silhouette_triangles: usize,
     blobs: f64,
     bodies: f64,
+    /// One body is about as large as the plant.
+    has_trunk: bool,
     sheet_count: usize,
     similar: bool,
     /// Area-weighted mean fullness of the bodies.
@@ -56,6 +60,7 @@ impl Forms {
                 }
                 Form::Blob => forms.blobs += shape.area,
                 Form::Body => {
+                    forms.has_trunk |= shape.spread >= TRUNK * diagonal;
                     forms.bodies += shape.area;
                     forms.body_fullness += shape.area * shape.fullness();
                 }
@@ -78,11 +83,11 @@ impl Forms {
         self.share(self.blobs) >= MOSTLY
     }
 
-    /// Neither tubes and bodies nor sheets and blobs make up nearly all of it.
+    /// Trunk and foliage: by area both, or foliage with a trunk in it (whose area is lost among thousands of leaves).
     pub fn wood_and_foliage(&self) -> bool {
-        let foliage = self.share(self.sheets + self.blobs);
-        let (wood, little) = (self.share(self.bodies), 1.0 - MOSTLY);
-        wood > little && foliage > little
+        let little = 1.0 - MOSTLY;
+        let foliage = self.share(self.sheets + self.blobs) > little;
+        foliage && (self.has_trunk || self.share(self.bodies) > little)
     }
 
     /// Large sheets that are cut out along a plant's outline, or too few to be anything but its pictures.

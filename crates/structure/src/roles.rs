@@ -14,6 +14,8 @@ use foliar_schema::Role;
 
 /// A pattern that a person gave outweighs all that can be seen.
 const PATTERN: f64 = 20.0;
+/// Confidence where patterns of several roles match, at most.
+const CONTRADICTED: f64 = 0.5;
 /// All names but the first count this much: a material says more than the object that it is on.
 const LATER_NAME: f64 = 0.5;
 /// A part that lies on another by its vertices is what the other is.
@@ -67,6 +69,9 @@ fn decided(mut part: PartEvidence) -> PartEvidence {
     let best = sums.iter().fold(sums[0], |best, &s| if s.1 > best.1 { s } else { best });
     part.role = best.0;
     part.confidence = 1.0 / sums.iter().map(|s| libm::exp(s.1 - best.1)).sum::<f64>();
+    if part.evidence.iter().filter(|e| e.source == Source::Pattern).count() > 1 {
+        part.confidence = part.confidence.min(CONTRADICTED);
+    }
     part
 }
 
