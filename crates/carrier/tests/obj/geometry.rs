@@ -31,6 +31,23 @@ fn negative_indices_count_from_the_lines_so_far() {
 }
 
 #[test]
+fn negative_indices_reach_back_over_chunks() {
+    // The same faces by absolute and by relative indices, over several chunks of a mebibyte.
+    let (mut absolute, mut relative) = (String::new(), String::new());
+    for i in 1..60_000 {
+        let vertex = format!("v {i} 0.{i} 1.25\nvt 0.5 0.{i}\n");
+        absolute.push_str(&vertex);
+        relative.push_str(&vertex);
+        if i > 50 {
+            writeln!(absolute, "f {0}/{0} {1}/{1} {2}/{2}", i, i - 1, i - 50).unwrap();
+            relative.push_str("f -1/-1 -2/-2 -51/-51\n");
+        }
+    }
+    assert!(relative.len() > 3 << 20);
+    assert!(read(&absolute).triangles == read(&relative).triangles);
+}
+
+#[test]
 fn an_index_out_of_range_is_named_with_line_and_count() {
     let message = refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
     assert!(message.contains("line 5: v index 4 is out of range: the file has 3 v lines"), "{message}");
