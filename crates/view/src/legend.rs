@@ -19,20 +19,20 @@ pub(crate) fn bar_corner(height: u32) -> [u32; 2] {
 /// Draws the legend over the picture; nothing where the picture is too small to hold one.
 pub(crate) fn draw(picture: &mut RgbaImage, legend: &Legend) {
     let line = text::height(SMALL) + 4;
-    let rows = 3 * line + BAR[1];
-    let most = picture.width().saturating_sub(4 * PAD);
-    if most < BAR[0] || picture.height() < rows + 4 * PAD {
+    let unit = if legend.unit.is_empty() || legend.unit == "1" { String::new() } else { format!(" [{}]", legend.unit) };
+    let title = text::wrapped(SMALL, &format!("{}{unit}", legend.name), BAR[0]);
+    let doc = text::wrapped(SMALL, &legend.doc, BAR[0]);
+    let head = (title.len() + doc.len()) as u32 * line;
+    let height = head + BAR[1] + line;
+    if picture.width() < BAR[0] + 4 * PAD || picture.height() < height + 4 * PAD {
         return;
     }
-    let unit = if legend.unit.is_empty() || legend.unit == "1" { String::new() } else { format!(" [{}]", legend.unit) };
-    let title = text::fitted(SMALL, &format!("{}{unit}", legend.name), most);
-    let doc = text::fitted(SMALL, &legend.doc, most);
-    let width = BAR[0].max(text::width(SMALL, &title)).max(text::width(SMALL, &doc)) + 2 * PAD;
     let [x, bar_y] = bar_corner(picture.height());
-    panel(picture, PAD, bar_y - 2 * line - PAD, width, rows + 2 * PAD);
-    let at = i64::from(x);
-    text::write(picture, SMALL, at, i64::from(bar_y - 2 * line), &title, 255);
-    text::write(picture, SMALL, at, i64::from(bar_y - line), &doc, 190);
+    panel(picture, PAD, bar_y - head - PAD, BAR[0] + 2 * PAD, height + 2 * PAD);
+    let lines = title.iter().map(|words| (words, 255)).chain(doc.iter().map(|words| (words, 190)));
+    for (row, (words, gray)) in (0u32..).zip(lines) {
+        text::write(picture, SMALL, i64::from(x), i64::from(bar_y - head + row * line), words, gray);
+    }
     bar(picture, legend, x, bar_y);
     numbers(picture, &legend.kind, x, bar_y + BAR[1] + 4);
 }

@@ -1,7 +1,7 @@
 //! The scene: the plant's triangles with all that light needs, in the picture's frame.
 
 use crate::camera::PLANT_EDGE;
-use crate::texture::{Decode, Texture};
+use crate::texture::{self, Cover, Decode, Texture};
 use crate::values::{self, FalseColors, Legend};
 use crate::{Shading, ViewError};
 use foliar_bake::Layer;
@@ -9,14 +9,18 @@ use foliar_plant::{AlphaMode, Part, Plant};
 use foliar_schema::{Role, names};
 use foliar_space::{Hit, Rays};
 use glam::{DVec3, Vec2, Vec3};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Things that are no part of the plant and reach farther than so many times its longest edge are
 /// left out: beside them the plant would be a dot to the BVH.
 const FARTHEST_OTHER: f64 = 30.0;
-/// Linear color of parts that have no material, by role: bark, foliage, anything else.
-const BARK: [f32; 3] = [0.13, 0.085, 0.055];
-const FOLIAGE: [f32; 3] = [0.10, 0.17, 0.04];
-const ANYTHING: [f32; 3] = [0.4, 0.4, 0.4];
+/// Linear color of parts whose material says nothing, by role.
+const BARK: Vec3 = Vec3::new(0.13, 0.085, 0.055);
+const FOLIAGE: Vec3 = Vec3::new(0.10, 0.17, 0.04);
+/// Gray from here on is taken for a color that nobody chose (Blender's own default is 0.8, many MTLs hold
+/// it as sRGB: 0.6).
+const LEAST_UNSET: f32 = 0.55;
 
 /// Values at a vertex.
 #[derive(Clone, Copy)]
@@ -35,6 +39,8 @@ struct Skin<'a> {
     alpha: f32,
     alpha_mode: AlphaMode,
     texture: Option<Texture<'a>>,
+    /// Where the texture has alpha that counts; parts of one material share it.
+    cover: Option<Arc<Cover>>,
     leaf: bool,
     /// Normals say how the crown stands to the light, not which side of a leaf this is.
     soft: bool,
@@ -107,8 +113,8 @@ impl<'a> Scene<'a> {
             Shading::Channel(name) => Some(values::false_colors(plant, layers, name)?),
             Shading::Plain | Shading::Baked => None,
         };
+        scene.skins = skins(plant, &soft);
         for (index, part) in plant.parts().iter().enumerate() {
-            scene.skins.push(skin(plant, index, soft[index].is_some()));
             scene.add(plant, index, part, ambient[index], soft[index], shown.as_ref());
         }
         scene.floor = scene.triangles.iter().flatten().map(|p| p.y).reduce(f32::min).unwrap_or_default();
@@ -157,17 +163,14 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Whether a ray that draws `chance` in [0, 1) is stopped by what it met: always by what is opaque,
-    /// at or above the cutoff by a mask, with a probability of alpha by what is blended.
+    /// Whether a ray that draws `chance` in [0, 1) is stopped by what it met.
     #[inline]
     pub fn stops(&self, hit: &Hit, chance: impl FnOnce() -> f32) -> bool {
         let face = &self.faces[hit.triangle as usize];
         let skin = &self.skins[face.skin as usize];
-        let alpha = || skin.alpha * skin.texture.as_ref().map_or(1.0, |t| t.alpha(self.uv(face, hit)));
-        match skin.alpha_mode {
-            AlphaMode::Opaque => true,
-            AlphaMode::Mask(cutoff) => alpha() >= cutoff,
-            AlphaMode::Blend => alpha() > chance(),
+        match (&skin.texture, &skin.cover) {
+            (Some(texture), Some(cover)) => cover.stops(texture, self.uv(face, hit), chance),
+            _ => texture::stops(skin.alpha_mode, skin.alpha, chance),
         }
     }
 
@@ -210,24 +213,47 @@ fn facing(own: Vec3, flat: Vec3) -> Vec3 {
     if own.dot(flat) < 0.0 { -own } else { own }
 }
 
+/// Skins of all parts; `soft` says which have realigned normals.
+fn skins<'a>(plant: &'a Plant, soft: &[Option<&[f32]>]) -> Vec<Skin<'a>> {
+    let mut covers: BTreeMap<u32, Arc<Cover>> = BTreeMap::new();
+    let mut skins: Vec<Skin> = (0..plant.parts().len()).map(|part| skin(plant, part, soft[part].is_some())).collect();
+    for (skin, part) in skins.iter_mut().zip(plant.parts()) {
+        if let (Some(texture), Some(material)) = (&skin.texture, part.material)
+            && skin.alpha_mode != AlphaMode::Opaque
+        {
+            let new = || Arc::new(Cover::new(texture, skin.alpha_mode, skin.alpha));
+            skin.cover = Some(covers.entry(material).or_insert_with(new).clone());
+        }
+    }
+    skins
+}
+
 fn skin(plant: &Plant, index: usize, soft: bool) -> Skin<'_> {
     let role = plant.role(index);
     let base = plant.base();
     let material = base.parts[index].material.and_then(|m| base.materials.get(m as usize));
     let raster = material.and_then(|m| m.base_color_raster).and_then(|r| base.rasters.get(r as usize));
+    // Without texture coordinates there is nothing to look up.
+    let texture = raster.filter(|_| !base.parts[index].uvs.is_empty()).and_then(Texture::new);
+    let [r, g, b, alpha] = material.map_or([1.0; 4], |m| m.base_color);
+    let own = Vec3::new(r, g, b);
     let by_role = match role {
         Role::Wood => BARK,
         Role::Leaf => FOLIAGE,
-        Role::Other => ANYTHING,
+        Role::Other => own,
     };
-    let [r, g, b, alpha] = material.map_or([by_role[0], by_role[1], by_role[2], 1.0], |m| m.base_color);
     Skin {
-        color: Vec3::new(r, g, b),
+        color: if texture.is_none() && says_nothing(own) { by_role } else { own },
         alpha,
         alpha_mode: material.map_or(AlphaMode::Opaque, |m| m.alpha_mode),
-        // Without texture coordinates there is nothing to look up.
-        texture: raster.filter(|_| !base.parts[index].uvs.is_empty()).and_then(Texture::new),
+        texture,
+        cover: None,
         leaf: role == Role::Leaf,
         soft,
     }
+}
+
+/// Light gray without a texture is what exporters write where nobody chose a color.
+fn says_nothing(color: Vec3) -> bool {
+    color.min_element() >= LEAST_UNSET && color.max_element() - color.min_element() <= 1e-3
 }

@@ -67,10 +67,10 @@ pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
     let baked = render(plant, layers, &Shading::Baked, params)?;
     let changed = difference(&plain, &baked)?;
     let caption = format!(
-        "difference: {:.1} steps of 255 on average over {:.0} % of the picture, at most {:.0}",
+        "difference: mean {:.1}, most {:.0} steps of 255; {:.0} % of pixels",
         changed.mean_steps,
-        100.0 * changed.share,
-        changed.max_steps
+        changed.max_steps,
+        100.0 * changed.share
     );
     let mut panels = vec![
         Panel::new("plain: normals of the file, the same ambient light everywhere", plain),

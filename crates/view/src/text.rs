@@ -62,6 +62,21 @@ pub(crate) fn fitted(font: &MonoFont, words: &str, pixels: u32) -> String {
     words.chars().take(letters.saturating_sub(2)).chain("..".chars()).take(letters).collect()
 }
 
+/// `words` in lines of at most `pixels`, broken between words; a word that is too long is cut.
+pub(crate) fn wrapped(font: &MonoFont, words: &str, pixels: u32) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(font, line) + width(font, " ") + width(font, word) <= pixels => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(fitted(font, word, pixels)),
+        }
+    }
+    lines
+}
+
 /// A number with at most four digits that matter.
 pub(crate) fn number(value: f32) -> String {
     let size = value.abs();
@@ -106,6 +121,7 @@ mod tests {
         assert_eq!(fitted(SMALL, "sapling", 9 * 7), "sapling");
         assert_eq!(fitted(SMALL, "sapling", 9 * 5), "sap..");
         assert_eq!(fitted(SMALL, "sapling", 5), "");
+        assert_eq!(wrapped(SMALL, "share of the sky", 9 * 9), ["share of", "the sky"]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! painter left in transparent texels never bleeds into a leaf's edge.
 
 use crate::colors::to_linear;
-use foliar_plant::Raster;
+use foliar_plant::{AlphaMode, Raster};
 use glam::{IVec2, Vec2, Vec3};
 
 /// Linear light of each of the 256 sRGB bytes.
@@ -52,28 +52,109 @@ impl<'a> Texture<'a> {
     /// The four texels around a place and their bilinear weights.
     #[inline]
     fn neighbors(&self, uv: Vec2) -> ([[u8; 4]; 4], [f32; 4]) {
-        let wrapped = uv - uv.floor();
-        let at = wrapped * self.size.as_vec2() - 0.5;
-        let low = at.floor();
-        let part = at - low;
-        // `low` is -1 at least and `size` at most (uv so large that its fraction rounds to 1).
-        let first = low.as_ivec2().clamp(IVec2::NEG_ONE, self.size - 1);
-        let wrap = |i: i32, n: i32| {
-            if i < 0 {
-                i + n
-            } else if i >= n {
-                i - n
-            } else {
-                i
-            }
-        };
-        let column = |i| wrap(first.x + i, self.size.x) as usize;
-        let row = |i| wrap(first.y + i, self.size.y) as usize * self.size.x as usize;
-        let (left, right, top, bottom) = (column(0), column(1), row(0), row(1));
+        let (first, part) = self.cell(uv);
+        let (right, below) = (next(first.x, self.size.x), next(first.y, self.size.y));
+        let texel = |x: i32, y: i32| self.rgba[self.index(IVec2::new(x, y))];
         (
-            [self.rgba[top + left], self.rgba[top + right], self.rgba[bottom + left], self.rgba[bottom + right]],
+            [texel(first.x, first.y), texel(right, first.y), texel(first.x, below), texel(right, below)],
             [(1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y],
         )
+    }
+
+    /// The texel whose center lies to the upper left of a place, and how far beyond it the place lies.
+    #[inline]
+    fn cell(&self, uv: Vec2) -> (IVec2, Vec2) {
+        let is_inside = uv.cmpge(Vec2::ZERO).all() && uv.cmple(Vec2::ONE).all();
+        let wrapped = if is_inside { uv } else { uv - uv.floor() };
+        let at = wrapped * self.size.as_vec2() - 0.5;
+        // `at` is -0.5 at least: cutting off after adding 1 rounds down, without a call to floor.
+        let low = (at + 1.0).as_ivec2() - 1;
+        let first = IVec2::new(
+            if low.x < 0 { self.size.x - 1 } else { low.x },
+            if low.y < 0 { self.size.y - 1 } else { low.y },
+        );
+        (first.min(self.size - 1), at - low.as_vec2())
+    }
+
+    #[inline]
+    fn index(&self, texel: IVec2) -> usize {
+        texel.y as usize * self.size.x as usize + texel.x as usize
+    }
+}
+
+/// The next of `count` texels; after the last the first.
+#[inline]
+fn next(texel: i32, count: i32) -> i32 {
+    if texel + 1 < count { texel + 1 } else { 0 }
+}
+
+/// What is known of the alpha between four neighboring texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+enum Known {
+    Holds,
+    Passes,
+    Depends,
+}
+
+/// Where a texture's alpha stops every ray, where none: a bilinear mean lies between its texels, so
+/// that most alpha tests need one byte instead of sixteen.
+pub(crate) struct Cover {
+    alpha_mode: AlphaMode,
+    factor: f32,
+    /// Per texel, for the square between it and its neighbors to the right and below.
+    known: Vec<Known>,
+}
+
+/// By so much the least and the greatest of four texels must clear the cutoff to be sure, since
+/// bilinear weights in f32 do not quite sum to 1.
+const SURE: f32 = 1e-4;
+
+impl Cover {
+    /// Looks at every texel once; `factor` is the material's own alpha.
+    pub fn new(texture: &Texture, alpha_mode: AlphaMode, factor: f32) -> Cover {
+        let (width, height) = (texture.size.x, texture.size.y);
+        let alpha = |x, y| f32::from(texture.rgba[texture.index(IVec2::new(x, y))][3]) * factor / 255.0;
+        let known = |x, y| {
+            let (right, below) = (next(x, width), next(y, height));
+            let four = [alpha(x, y), alpha(right, y), alpha(x, below), alpha(right, below)];
+            let (least, most) = (four.into_iter().fold(f32::MAX, f32::min), four.into_iter().fold(0.0, f32::max));
+            let (holds, passes) = match alpha_mode {
+                AlphaMode::Opaque => (true, false),
+                AlphaMode::Mask(cutoff) => (least >= cutoff + SURE, most < cutoff - SURE),
+                AlphaMode::Blend => (least >= 1.0, most <= 0.0),
+            };
+            if holds {
+                Known::Holds
+            } else if passes {
+                Known::Passes
+            } else {
+                Known::Depends
+            }
+        };
+        let known = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| known(x, y)).collect();
+        Cover { alpha_mode, factor, known }
+    }
+
+    /// Whether a ray that draws `chance` in [0, 1) is stopped here.
+    #[inline]
+    pub fn stops(&self, texture: &Texture, uv: Vec2, chance: impl FnOnce() -> f32) -> bool {
+        match self.known[texture.index(texture.cell(uv).0)] {
+            Known::Holds => true,
+            Known::Passes => false,
+            Known::Depends => stops(self.alpha_mode, texture.alpha(uv) * self.factor, chance),
+        }
+    }
+}
+
+/// Whether a ray is stopped: always by what is opaque, at or above the cutoff by a mask, with a
+/// probability of alpha by what is blended.
+#[inline]
+pub(crate) fn stops(alpha_mode: AlphaMode, alpha: f32, chance: impl FnOnce() -> f32) -> bool {
+    match alpha_mode {
+        AlphaMode::Opaque => true,
+        AlphaMode::Mask(cutoff) => alpha >= cutoff,
+        AlphaMode::Blend => alpha > chance(),
     }
 }
 
@@ -112,6 +193,30 @@ mod tests {
         let gray = Raster { width: 1, height: 1, rgba: vec![188, 188, 188, 255], ..Raster::default() };
         let color = Texture::new(&gray).unwrap().color(Vec2::ZERO, &Decode::new());
         assert!((color.x - 0.5029).abs() < 1e-3, "sRGB 188 is half the light: {color}");
+    }
+
+    #[test]
+    fn a_cover_decides_as_the_texture_does() {
+        let noise = |i: u32| {
+            [0, 0, 0, [0, 255, (crate::colors::mix(i) & 0xFF) as u8][(crate::colors::mix(i / 7) % 3) as usize]]
+        };
+        let rgba = (0..16 * 12).map(noise).collect::<Vec<_>>().concat();
+        let raster = Raster { width: 16, height: 12, rgba, ..Raster::default() };
+        let texture = Texture::new(&raster).unwrap();
+        for (alpha_mode, factor) in [
+            (AlphaMode::Mask(0.5), 1.0),
+            (AlphaMode::Mask(0.3), 0.7),
+            (AlphaMode::Blend, 1.0),
+            (AlphaMode::Opaque, 0.2),
+        ] {
+            let cover = Cover::new(&texture, alpha_mode, factor);
+            assert!(cover.known.contains(&Known::Holds), "a test of the short way too");
+            for i in 0..20_000 {
+                let uv = foliar_numerics::r2_point(i).as_vec2() * 3.0 - 1.0;
+                let slow = stops(alpha_mode, texture.alpha(uv) * factor, || 0.4);
+                assert_eq!(cover.stops(&texture, uv, || 0.4), slow, "{alpha_mode:?} at {uv}");
+            }
+        }
     }
 
     #[test]
