@@ -27,10 +27,8 @@ pub(crate) struct Notes {
     pub node: Option<String>,
 }
 
-/// Lists at whose end foliar adds.
-pub(crate) const LISTS: &[&str] = &["/accessors", "/bufferViews", "/buffers", "/extensionsUsed", PROPERTY_TABLES];
-/// List of property tables.
-pub(crate) const PROPERTY_TABLES: &str = "/extensions/EXT_structural_metadata/propertyTables";
+/// Lists at the root at whose end foliar adds.
+pub(crate) const LISTS: &[&str] = &["/accessors", "/bufferViews", "/buffers", "/extensionsUsed"];
 /// Member of the root extension: names that were taken, and what stands for them.
 pub(crate) const RENAMED: &str = "renamed";
 /// Member of the root extension: tables that EXT_structural_metadata cannot hold, by buffer view name.
@@ -43,9 +41,11 @@ pub(crate) const PROPERTIES: &str = "properties";
 impl Notes {
     /// What can be noted before anything is added.
     pub fn before(json: &Value) -> Self {
-        let length = |pointer: &&str| Some((pointer.to_string(), json.pointer(pointer)?.as_array()?.len()));
+        let length = |pointer: &str| Some((pointer.to_string(), json.pointer(pointer)?.as_array()?.len()));
         let byte_length = json.pointer("/buffers/0/byteLength").and_then(Value::as_u64).map(|n| n as usize);
-        Notes { byte_length, lengths: LISTS.iter().filter_map(length).collect(), ..Notes::default() }
+        let tables = metadata_pointer("/propertyTables");
+        let lists = LISTS.iter().copied().chain([tables.as_str()]);
+        Notes { byte_length, lengths: lists.filter_map(length).collect(), ..Notes::default() }
     }
 
     /// As the member `base` has it.
@@ -64,6 +64,16 @@ pub(crate) fn id_names(channel: &str) -> Option<(String, String)> {
     let lower = word.to_lowercase();
     let (first, rest) = lower.split_at_checked(1)?;
     Some((format!("foliar_{lower}"), format!("foliar{}{rest}", first.to_uppercase())))
+}
+
+/// Pointer to the root extension.
+pub(crate) fn root_pointer() -> String {
+    format!("/extensions/{}", names::EXTENSION)
+}
+
+/// Pointer to a member (`/schema`) of the file's structural metadata.
+pub(crate) fn metadata_pointer(member: &str) -> String {
+    format!("/extensions/{}{member}", names::STRUCTURAL_METADATA)
 }
 
 /// Name of a buffer view of foliar.

@@ -164,7 +164,7 @@ fn stage(file: &OutputFile, hook: &mut dyn FnMut(&Path, Step) -> std::io::Result
     }
     hook(&file.path, Step::Create)?;
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut temporary = temporary_in(folder)?;
+    let mut temporary = temporary_for(&target, folder)?;
     let (front, back) = file.bytes.split_at(file.bytes.len() / 2);
     temporary.write_all(front)?;
     hook(&file.path, Step::Half)?;
@@ -174,16 +174,35 @@ fn stage(file: &OutputFile, hook: &mut dyn FnMut(&Path, Step) -> std::io::Result
     Ok(Some((temporary, target)))
 }
 
-/// A temporary file whose mode is what the umask leaves of 0666, as for any new file.
-fn temporary_in(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+/// A temporary file whose mode is what the umask leaves of 0666, as for any new file. It is named for
+/// its target and its process, so that what a killed process left can be told from work in progress.
+fn temporary_for(target: &Path, folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let front = format!(".{}.foliar-", target.file_name().unwrap_or_default().to_string_lossy());
+    remove_leftovers(folder, &front);
+    let prefix = format!("{front}{}-", std::process::id());
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".foliar-").suffix(".part");
+    builder.prefix(&prefix).suffix(".part");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
+}
+
+/// Removes temporary files of processes that are gone, where the system tells (`/proc`). What cannot
+/// be removed is in nobody's way.
+fn remove_leftovers(folder: &Path, front: &str) {
+    if !Path::new("/proc/self").exists() {
+        return;
+    }
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let process = name.strip_prefix(front).and_then(|rest| rest.split_once('-')?.0.parse::<u32>().ok());
+        if process.is_some_and(|id| !Path::new(&format!("/proc/{id}")).exists()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// Makes the rename itself durable, where the system can.

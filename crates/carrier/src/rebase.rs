@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn data_and_network_uris_are_told_from_paths() {
-        assert!(is_elsewhere("data:image/png;base64,AA") && is_elsewhere("https://x/y"));
+        assert!(is_elsewhere("data:image/png;base64,AA") && is_elsewhere("https://example.org/y"));
         assert!(!is_elsewhere("a b.png") && !is_elsewhere("folder/c.png"));
     }
 }

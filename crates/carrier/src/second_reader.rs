@@ -197,7 +197,9 @@ impl Master<'_> {
         ensure(accessor["type"] == kind && accessor["componentType"] == 5126, || format!("no {kind} of floats"))?;
         ensure(number(&accessor["count"]) == count, || format!("count is not {count}, that of POSITION"))?;
         let view = &self.json["bufferViews"][number(&accessor["bufferView"])];
-        ensure(view["name"].as_str().is_some_and(|n| n.starts_with("foliar:")), || "its view is not foliar's".into())?;
+        ensure(view["name"].as_str().is_some_and(|n| n.starts_with(names::VIEW_PREFIX)), || {
+            "its view is not foliar's".into()
+        })?;
         ensure(view["target"] == 34962, || "its view has no target".into())?;
         let bytes = self.view(view, 4)?;
         let (stride, offset) = (number(&view["byteStride"]).max(width * 4), number(&accessor["byteOffset"]));

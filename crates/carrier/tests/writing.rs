@@ -80,6 +80,22 @@ fn an_error_at_any_step_leaves_the_old_output() {
     }
 }
 
+/// What a killed process leaves is removed by the next write of the same file, and nothing else is.
+#[test]
+fn leftovers_of_the_dead_are_removed() {
+    if !Path::new("/proc/self").exists() {
+        return eprintln!("skipped: no /proc");
+    }
+    let folder = folder();
+    let mine = format!(".tree.glb.foliar-{}-abc.part", std::process::id());
+    // No process has the largest 32-bit id: Linux stops at 2^22.
+    for name in [".tree.glb.foliar-4294967295-abc.part", ".other.glb.foliar-4294967295-abc.part", &mine] {
+        std::fs::write(folder.path().join(name), "half").unwrap();
+    }
+    write(&plain().finish(), &folder.path().join("tree.glb")).unwrap();
+    assert_eq!(names_in(folder.path()), [".other.glb.foliar-4294967295-abc.part", &mine, "tree.glb"]);
+}
+
 #[test]
 fn files_are_put_in_place_in_order_the_commit_last() {
     let folder = folder();

@@ -126,7 +126,8 @@ fn foreign_ids(document: &Document, mesh: u32) -> bool {
 
 fn push_feature(builder: &mut Builder, place: Place, feature: Value) -> Result<(), CarrierError> {
     let pointer = format!("/meshes/{}/primitives/{}/extensions", place.mesh, place.primitive);
-    let fail = || CarrierError::input("base", pointer.clone(), "is not as EXT_mesh_features has it", "export it again");
+    let problem = format!("is not as {} has it", names::MESH_FEATURES);
+    let fail = || CarrierError::input("base", pointer.clone(), problem.clone(), "export it again");
     let primitive = primitive_mut(&mut builder.document.json, place).ok_or_else(fail)?;
     let extensions = primitive.get("extensions").and_then(Value::as_object);
     if extensions.is_some_and(Map::is_empty) {

@@ -6,7 +6,7 @@ mod builder;
 mod check;
 mod tables;
 
-use crate::notes::{KEPT, PROPERTIES, RENAMED};
+use crate::notes::{KEPT, PROPERTIES, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
 use builder::{Builder, primitive_mut};
 use foliar_bake::Layer;
@@ -24,12 +24,7 @@ pub(crate) fn assemble(base: &Document, layers: &[Layer]) -> Result<(Document, V
     }
     if base.json.pointer("/extensions").and_then(|e| e.get(names::EXTENSION)).is_some() {
         let remedy = "update foliar, or start from the file that it was baked from";
-        return Err(CarrierError::input(
-            "base",
-            "/extensions/FOLIAR_foliage",
-            "holds layers of a newer foliar",
-            remedy,
-        ));
+        return Err(CarrierError::input("base", root_pointer(), "holds layers of a newer foliar", remedy));
     }
     let layers = in_order(layers);
     check::layers(base, &layers)?;
@@ -111,7 +106,7 @@ fn write_root(builder: &mut Builder, layers: &[&Layer]) -> Result<(), CarrierErr
         more,
     };
     let value = serde_json::to_value(extension).map_err(|error| {
-        CarrierError::input("FOLIAR_foliage", "", error.to_string(), "report it: a fault of foliar")
+        CarrierError::input(names::EXTENSION, "", error.to_string(), "report it: a fault of foliar")
     })?;
     builder.require_object(&["extensions"])?.insert(names::EXTENSION.into(), value.clone());
     if let Some(extras) = builder.object(&["asset", "extras"]).filter(|_| mirror) {

@@ -4,7 +4,7 @@
 
 use super::builder::{Builder, Content};
 use super::check;
-use crate::notes::{PROPERTIES, TABLES, view_name};
+use crate::notes::{PROPERTIES, TABLES, metadata_pointer, view_name};
 use crate::{CarrierError, Document};
 use foliar_bake::{Array, ColumnKey, Layer};
 use foliar_schema::{COLUMNS, Element, Finding, code, column, names};
@@ -103,14 +103,13 @@ fn add_table(
     const SCHEMA: &[&str] = &["extensions", names::STRUCTURAL_METADATA, "schema"];
     const CLASSES: &[&str] = &["extensions", names::STRUCTURAL_METADATA, "schema", "classes"];
     builder.use_extension(names::STRUCTURAL_METADATA)?;
-    let own = builder.document.json.pointer(&format!("/{}", SCHEMA.join("/"))).is_none();
+    let own = builder.document.json.pointer(&metadata_pointer("/schema")).is_none();
     let schema = builder.require_object(SCHEMA)?;
     if own {
         schema.insert("id".into(), names::METADATA_SCHEMA_ID.into());
     }
     let taken: Vec<String> = builder.require_object(CLASSES)?.keys().cloned().collect();
-    let name = builder
-        .free_name(class, "/extensions/EXT_structural_metadata/schema/classes", |n| taken.iter().any(|t| t == n));
+    let name = builder.free_name(class, &metadata_pointer("/schema/classes"), |n| taken.iter().any(|t| t == n));
     builder.require_object(CLASSES)?.insert(name.clone(), json!({ "properties": definitions }));
     let table = json!({ "class": name, "count": count, "properties": values });
     let index = builder.push(METADATA, "propertyTables", table)?;
@@ -128,8 +127,9 @@ fn name_views(builder: &mut Builder, class: &str, count: usize, columns: &[Writt
         }
     }
     list(builder, class, count, properties);
-    let message = format!("the file's metadata schema lies in another file: table {class} is listed in FOLIAR_foliage");
-    let place = "/extensions/EXT_structural_metadata/schemaUri";
+    let message =
+        format!("the file's metadata schema lies in another file: table {class} is listed in {}", names::EXTENSION);
+    let place = metadata_pointer("/schemaUri");
     builder.findings.push(Finding::new(&code::NAME_TAKEN, message).at(place));
 }
 

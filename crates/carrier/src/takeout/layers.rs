@@ -137,7 +137,7 @@ impl Reader<'_> {
             None => self.named_column(class, property),
         };
         let Some((rows, view, definition)) = found else { return Ok(false) };
-        let place = format!("FOLIAR_foliage/tables/{class}/{property}");
+        let place = format!("table {class}, property {property}");
         let kind = definition.get("type").and_then(Value::as_str).unwrap_or("");
         let length = definition.get("count").and_then(Value::as_u64).map(|n| n as usize);
         let width = type_width(kind).map(|w| w * length.unwrap_or(1)).filter(|w| *w > 0);

@@ -5,7 +5,7 @@
 mod layers;
 mod strip;
 
-use crate::notes::{Notes, RENAMED};
+use crate::notes::{Notes, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
 use foliar_bake::Layer;
 use foliar_schema::{CONTRACT, Finding, FoliageExtension, code, names};
@@ -40,7 +40,7 @@ pub(crate) fn take_out(mut document: Document, file: &str) -> Result<Taken, Carr
     let Some(value) = root.or(mirror).cloned() else {
         return Ok(Taken { document, layers: Vec::new(), findings: Vec::new() });
     };
-    let place = if root.is_some() { "/extensions/FOLIAR_foliage" } else { "/asset/extras/FOLIAR_foliage" };
+    let place = if root.is_some() { root_pointer() } else { format!("/asset/extras/{}", names::EXTENSION) };
     let contract = value.get("contract").and_then(Value::as_u64);
     if contract.is_some_and(|c| c > u64::from(CONTRACT)) {
         let message = format!("contract {} is newer than {CONTRACT}: all of it stays as it is", contract.unwrap_or(0));

@@ -5,14 +5,11 @@ use super::Contents;
 use super::layers::feature;
 use crate::Document;
 use crate::document::index_of;
-use crate::notes::{KEPT, LISTS, PROPERTY_TABLES, id_names};
+use crate::notes::{KEPT, LISTS, id_names, metadata_pointer, root_pointer};
 use crate::output::set_byte_lengths;
 use foliar_schema::names;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
-
-/// Object of a schema that foliar may have made.
-const SCHEMA: &str = "/extensions/EXT_structural_metadata/schema";
 
 /// Takes everything of foliar out of a document.
 pub(super) fn strip(document: &mut Document, contents: &Contents) {
@@ -78,7 +75,7 @@ fn is_as_assembled(document: &Document, contents: &Contents) -> bool {
 
 /// Cuts lists and buffer back to what they were.
 fn cut(document: &mut Document, contents: &Contents) {
-    for pointer in LISTS.iter().filter(|p| **p != PROPERTY_TABLES) {
+    for pointer in LISTS {
         let key = pointer.trim_start_matches('/');
         let Some(root) = document.json.as_object_mut() else { return };
         match contents.notes.lengths.get(*pointer) {
@@ -119,7 +116,7 @@ fn strip_primitive(primitive: &mut Value, contents: &Contents, writes: &BTreeSet
             attributes.shift_remove(&attribute);
         }
     }
-    let role = primitive.pointer("/extensions/FOLIAR_foliage/role").cloned();
+    let role = primitive.pointer(&format!("{}/role", root_pointer())).cloned();
     let Some(primitive) = primitive.as_object_mut() else { return };
     for container in ["extensions", "extras"] {
         let Some(object) = primitive.get_mut(container).and_then(Value::as_object_mut) else { continue };
@@ -169,12 +166,12 @@ fn strip_metadata(json: &mut Value, contents: &Contents, writes: &BTreeSet<&str>
     let classes: BTreeSet<&str> =
         writes.iter().filter_map(|w| w.split_once('/')).map(|(class, _)| contents.name(class)).collect();
     let ours = |class: Option<&Value>| class.and_then(Value::as_str).is_some_and(|c| classes.contains(c));
-    let Some(metadata) = json.pointer_mut("/extensions/EXT_structural_metadata").and_then(Value::as_object_mut) else {
+    let Some(metadata) = json.pointer_mut(&metadata_pointer("")).and_then(Value::as_object_mut) else {
         return;
     };
     if let Some(tables) = metadata.get_mut("propertyTables").and_then(Value::as_array_mut) {
         tables.retain(|table| !ours(table.get("class")));
-        if tables.is_empty() && !contents.notes.lengths.contains_key(PROPERTY_TABLES) {
+        if tables.is_empty() && !contents.notes.lengths.contains_key(&metadata_pointer("/propertyTables")) {
             metadata.shift_remove("propertyTables");
         }
     }
@@ -184,7 +181,7 @@ fn strip_metadata(json: &mut Value, contents: &Contents, writes: &BTreeSet<&str>
             all.shift_remove(*class);
         });
     }
-    if contents.notes.created.iter().any(|pointer| pointer == SCHEMA) {
+    if contents.notes.created.contains(&metadata_pointer("/schema")) {
         schema.shift_remove("id");
     }
 }
