@@ -161,3 +161,64 @@ fn same_sheet(a: &PieceShape, b: &PieceShape) -> bool {
     let moments = a.spread.max(b.spread) * a.spread.max(b.spread);
     (a.area - b.area).abs() <= DOUBLES * larger && square_norm(a.moments - b.moments).sqrt() <= DOUBLES * moments
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DMat3, DVec3};
+
+    /// A card of edge 1 with its picture's up along `up` and its front to `normal`.
+    fn card(center: DVec3, up: DVec3, normal: DVec3) -> PieceShape {
+        let outer = |v: DVec3| DMat3::from_cols(v * v.x, v * v.y, v * v.z);
+        let moments = (outer(up) + outer(up.cross(normal))) * (1.0 / 12.0);
+        let spread = (1.0f64 / 6.0).sqrt();
+        PieceShape { area: 1.0, center, normal_sum: normal, moments, spread, up, ..PieceShape::default() }
+    }
+
+    #[test]
+    fn crossed_cards_are_one_object_and_keep_their_areas() {
+        let groups = group(&[card(DVec3::ZERO, DVec3::Y, DVec3::X), card(DVec3::ZERO, DVec3::Y, DVec3::Z)]);
+        assert_eq!((groups.of_leaf, groups.doubles), (vec![0, 0], vec![1, 1]));
+    }
+
+    #[test]
+    fn cards_crossed_by_hand_go_together_only_when_they_stand_the_same_way_up() {
+        let off = DVec3::new(0.01, 0.0, 0.005);
+        let with = |up: DVec3, normal| group(&[card(DVec3::ZERO, DVec3::Y, DVec3::X), card(off, up, normal)]).of_leaf;
+        assert_eq!(with(DVec3::Y, DVec3::Z), [0, 0]);
+        assert_eq!(with(DVec3::X, DVec3::Z), [0, 1]);
+        assert_eq!(with(DVec3::ZERO, DVec3::Z), [0, 0], "without texture coordinates nothing speaks against it");
+    }
+
+    #[test]
+    fn what_has_an_exact_partner_looks_no_further() {
+        let pair = |x: f64| [DVec3::X, DVec3::NEG_X].map(|normal| card(DVec3::X * x, DVec3::Y, normal));
+        let groups = group(&[pair(0.0), pair(0.01)].concat());
+        assert_eq!((groups.of_leaf, groups.doubles), (vec![0, 0, 1, 1], vec![2; 4]));
+    }
+
+    #[test]
+    fn groups_do_not_grow_along_a_row() {
+        // Each within reach of the next: a leader takes those around it, no more.
+        let row: Vec<PieceShape> =
+            (0..100).map(|i| card(DVec3::X * (0.015 * f64::from(i)), DVec3::Y, DVec3::Z)).collect();
+        let groups = group(&row).of_leaf;
+        let largest = groups.chunk_by(|a, b| a == b).map(<[u32]>::len).max().unwrap();
+        assert!(largest <= 3, "{largest}");
+    }
+
+    #[test]
+    fn leaves_of_very_different_size_stay_apart() {
+        let large = card(DVec3::ZERO, DVec3::Y, DVec3::Z);
+        let small = PieceShape { area: 0.25, spread: large.spread / 2.0, moments: large.moments * 0.25, ..large };
+        assert_eq!(group(&[large, small]).of_leaf, [0, 1]);
+    }
+
+    #[test]
+    fn a_hundred_thousand_leaves_in_one_place_are_one_group_at_once() {
+        let all = vec![card(DVec3::ONE, DVec3::Y, DVec3::Z); 100_000];
+        let groups = group(&all);
+        assert!(groups.of_leaf.iter().all(|&g| g == 0));
+        assert!(groups.doubles.iter().all(|&d| d == 100_000));
+    }
+}

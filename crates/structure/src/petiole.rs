@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 const SEARCH_SIZE: f64 = 100.0;
 /// How much of a leaf's size a place at the top of its texture may be nearer to wood than one at
 /// the bottom and still lose: leaves that cross their twig are at distance 0 in many places.
-const LOW_V: f64 = 0.05;
+const LOW_V: f64 = 0.1;
 /// The same for distance from the leaf's center, far weaker: of an edge the middle is taken.
 const MIDDLE: f64 = 0.0004;
 /// Edges are cut in this many parts for pieces of at most so many triangles: cards need places
