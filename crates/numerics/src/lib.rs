@@ -7,5 +7,5 @@ mod sum;
 
 pub use directions::{fibonacci_sphere, r2_point, radical_inverse};
 pub use error_stats::{ErrorStats, spearman};
-pub use morton::{MORTON_BITS, morton3};
+pub use morton::{MORTON_BITS, morton3, morton3_inverse};
 pub use sum::CompensatedSum;
