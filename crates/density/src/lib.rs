@@ -17,6 +17,7 @@ mod params;
 pub mod reference;
 mod requirement;
 mod sky;
+pub mod surface;
 mod tessellate;
 #[cfg(test)]
 mod tests;

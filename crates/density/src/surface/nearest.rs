@@ -1,0 +1,83 @@
+//! Realigned normals by the surface (Luft07 section 4): of each place, the closest point of the mesh's
+//! triangles and the field's normal there.
+
+use super::refine::downhill;
+use super::{DensityField, Surface};
+use foliar_numerics::{MORTON_BITS, morton3};
+use foliar_space::{Closest, TriangleTree};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// Where a place's normal comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Closest point of the mesh, meters from the surface's origin.
+    pub point: Vec3,
+    /// Unit outward normal there.
+    pub normal: Vec3,
+}
+
+/// The middle of the range of Morton codes.
+const MIDDLE: i64 = 1 << (MORTON_BITS - 1);
+/// Cells within which the order of places does not matter.
+const GRAIN: f64 = 2.0;
+/// Places of one task, near each other.
+const TASK: usize = 256;
+/// Relative margin of a bound from the place before: f32 roundings of a distance.
+const MARGIN: f32 = 1e-4;
+
+/// The foot of each place (meters, relative to the plant's center) on the surface; `None` where the
+/// surface has no triangles. Give the surface without its cavities, or places inside get normals that point
+/// into the crown.
+pub fn nearest(surface: &Surface, field: &impl DensityField, places: &[DVec3]) -> Option<Vec<Foot>> {
+    let corners: Vec<[Vec3; 3]> =
+        surface.triangles.par_iter().map(|t| t.map(|v| surface.positions[v as usize])).collect();
+    let tree = TriangleTree::new(&corners);
+    let closest = closest(&tree, places, surface)?;
+    let points: Vec<DVec3> = closest.par_iter().map(|c| c.point.as_dvec3() + surface.origin).collect();
+    let probes = field.probe(&points);
+    let foot = |(found, probe): (&Closest, &super::Probe)| {
+        let normal = downhill(probe.gradient).unwrap_or_else(|| face_normal(surface, found.triangle));
+        Foot { point: found.point, normal }
+    };
+    Some(closest.par_iter().zip(&probes).map(foot).collect())
+}
+
+/// Closest points of all places, searched in Morton order.
+fn closest(tree: &TriangleTree, places: &[DVec3], surface: &Surface) -> Option<Vec<Closest>> {
+    let scale = 1.0 / (GRAIN * surface.cell_m);
+    let code = |(index, place): (usize, &DVec3)| {
+        let [x, y, z] = ((*place - surface.origin) * scale).to_array().map(|v| (v.floor() as i64 + MIDDLE) as u32);
+        (morton3(x, y, z), index as u32)
+    };
+    let mut order: Vec<(u64, u32)> = places.par_iter().enumerate().map(code).collect();
+    order.par_sort_unstable();
+    let task = |task: &[(u64, u32)]| feet(tree, task, places, surface.origin);
+    let found: Option<Vec<Closest>> = order.par_chunks(TASK).flat_map_iter(task).collect();
+    let mut closest = found?;
+    let mut sorted: Vec<(u32, Closest)> = order.iter().map(|o| o.1).zip(closest.drain(..)).collect();
+    sorted.par_sort_unstable_by_key(|s| s.0);
+    Some(sorted.into_iter().map(|s| s.1).collect())
+}
+
+/// Closest points of places in a row: each is at most as far as the one before it, plus the way between.
+fn feet(tree: &TriangleTree, task: &[(u64, u32)], places: &[DVec3], origin: DVec3) -> Vec<Option<Closest>> {
+    let mut before: Option<(Vec3, f32)> = None;
+    let search = |&(_, index): &(u64, u32)| {
+        let place = (places[index as usize] - origin).as_vec3();
+        let bound = before.map(|(last, distance)| distance + last.distance(place));
+        let near = bound.and_then(|b| tree.closest_within(place, b * b * (1.0 + MARGIN)));
+        let found = near.or_else(|| tree.closest(place))?;
+        before = Some((place, found.distance_squared.sqrt()));
+        Some(found)
+    };
+    task.iter().map(search).collect()
+}
+
+/// Normal of a triangle, or of a corner of one without area.
+fn face_normal(surface: &Surface, triangle: u32) -> Vec3 {
+    let corners = surface.triangles[triangle as usize];
+    let [a, b, c] = corners.map(|v| surface.positions[v as usize].as_dvec3());
+    let face = (b - a).cross(c - a);
+    downhill(-face).unwrap_or(surface.normals[corners[0] as usize])
+}
