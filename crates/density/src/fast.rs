@@ -3,12 +3,14 @@
 use crate::ambient::ambient_coefficient;
 use crate::field::{Field, Query};
 use crate::generators::{Foliage, NO_GROUP};
+use crate::measure;
 use crate::medium::SkySample;
 use crate::params::{AmbientTerm, Channels, Params, SelfLeaf};
 use crate::sky::Sky;
 use foliar_plant::Plant;
-use foliar_schema::Role;
+use foliar_schema::{MeasuredError, Role};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Every vertex of leaves and wood, and what its leaf is.
 #[derive(Clone, Debug, Default)]
@@ -109,28 +111,31 @@ impl SkyPlan {
 }
 
 /// Everything that a bake computes, before it is written into arrays.
+#[derive(Default)]
 pub(crate) struct Values {
-    /// S_ref.
-    pub reference: f64,
+    /// S_ref, where k_a needs it.
+    pub reference: Option<f64>,
     /// Per place; empty where it is not asked for.
     pub ambient: Vec<f32>,
     /// Per place, rest frame; `None` for wood; empty where it is not asked for.
     pub normals: Vec<Option<DVec3>>,
     /// Radius of the sky's balls, where the sky was asked.
     pub sky_radius: Option<f64>,
+    /// Errors against the reference, where they were measured.
+    pub errors: Vec<MeasuredError>,
 }
 
 /// Bakes all places.
 pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Values {
     let wants_ambient = params.channels != Channels::Normals;
     let wants_normals = params.channels != Channels::Ambient;
-    let reference = reference_density(foliage, params);
-    let mut values = Values { reference, ambient: Vec::new(), normals: Vec::new(), sky_radius: None };
+    let mut values = Values::default();
     if wants_normals || params.ambient == AmbientTerm::Sky {
         let plan = SkyPlan::new(plant, foliage, places, params);
         let sky = Sky::new(foliage, params.sky_points());
         values.sky_radius = Some(sky.radius());
         let samples = sky.samples(&plan.queries);
+        values.errors = measure::sky(&sky, foliage, &plan.queries, &samples, params);
         if wants_ambient && params.ambient == AmbientTerm::Sky {
             values.ambient = sky_ambients(&plan.of_place, &samples, params);
         }
@@ -139,8 +144,12 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
         }
     }
     if wants_ambient && params.ambient == AmbientTerm::Luft {
-        let densities = Field::new(&foliage.generators, foliage.radius).densities(&places.queries);
-        values.ambient = densities.iter().map(|&s| luft_ambient(f64::from(s), reference, params) as f32).collect();
+        let reference = reference_density(foliage, params);
+        let field = Field::new(&foliage.generators, foliage.radius);
+        let densities = field.densities(&places.queries);
+        values.ambient = densities.par_iter().map(|&s| luft_ambient(f64::from(s), reference, params) as f32).collect();
+        values.reference = Some(reference);
+        values.errors.push(measure::luft(&field, &places.queries, &values.ambient, reference, params));
     }
     values
 }

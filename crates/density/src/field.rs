@@ -69,6 +69,11 @@ impl Field {
         self.evaluate::<false>(queries).iter().map(|s| s.density).collect()
     }
 
+    /// Density at one place in f64, over the same balls.
+    pub fn exact_density(&self, query: &Query) -> f64 {
+        self.grid.exact(query.position * self.inverse, query.skip)
+    }
+
     fn evaluate<const GRADIENT: bool>(&self, queries: &[Query]) -> Vec<Sample> {
         let order = self.order(queries);
         let blocks: Vec<&[(u64, u32)]> = order.chunk_by(|a, b| block_of(a.0) == block_of(b.0)).collect();

@@ -44,8 +44,9 @@ pub struct Foliage {
 const RADIUS_PER_SIZE: [f64; 2] = [1.0 / 65536.0, 65536.0];
 /// Bounds of the radius of influence in meters: its cube and inverse stay finite.
 const RADIUS_M: [f64; 2] = [1e-30, 1e30];
-/// Automatic radius in radii of gyration of the crown: .4 m for a crown 8 m wide.
-const RADIUS_PER_GYRATION: f64 = 0.13;
+/// Automatic radius in radii of gyration of the crown: .5 m for a crown 8 m wide, which still tells boughs
+/// apart.
+const RADIUS_PER_GYRATION: f64 = 0.16;
 /// For few leaves, in radii of gyration over the cube root of their number: the median leaf then has a
 /// dozen neighbors or more on the shared trees (.13 alone leaves it 3 of 704, and 57 of 39,060).
 const RADIUS_PER_SPACING: f64 = 2.2;

@@ -109,6 +109,31 @@ impl Grid {
     pub fn near(&self, low: DVec3, high: DVec3, origin: DVec3, near: &mut Near) {
         near.balls.clear();
         near.runs.clear();
+        self.each_run(low, high, |balls, corner| {
+            let start = near.balls.len();
+            near.balls.extend(balls.iter().map(|b| {
+                let p = (b.position - origin).as_vec3();
+                Ball { x: p.x, y: p.y, z: p.z, weight: b.weight, group: b.group }
+            }));
+            let low = [(corner[0] - origin.y) as f32, (corner[1] - origin.z) as f32];
+            near.runs.push(Run { low, start, end: near.balls.len() });
+        });
+    }
+
+    /// Density at a place (radii), in f64: what f32 sums are measured against.
+    pub fn exact(&self, place: DVec3, skip: u32) -> f64 {
+        let mut density = 0.0;
+        self.each_run(place, place, |balls, _| {
+            for ball in balls.iter().filter(|ball| ball.group != skip) {
+                let inside = (1.0 - (place - ball.position).length_squared()).max(0.0);
+                density += f64::from(ball.weight) * inside * inside;
+            }
+        });
+        density
+    }
+
+    /// Calls `each` with every run of balls within reach of a box, and the lower corner (y, z) of its row.
+    fn each_run(&self, low: DVec3, high: DVec3, mut each: impl FnMut(&[Stored], [f64; 2])) {
         let bound = |v: f64| (v * ROWS_PER_RADIUS).floor() as i32;
         for z in bound(low.z - REACH)..=bound(high.z + REACH) {
             let first = self.rows.partition_point(|r| (r.z, r.y) < (z, bound(low.y - REACH)));
@@ -122,25 +147,13 @@ impl Grid {
                 if let Some(half) = half_reach(across) {
                     let end = self.rows.get(index + 1).map_or(self.balls.len(), |next| next.start);
                     let balls = &self.balls[row.start..end];
-                    take_run(balls, [low.x - half, high.x + half], corner, origin, near);
+                    let from = balls.partition_point(|b| b.position.x < low.x - half);
+                    let count = balls[from..].partition_point(|b| b.position.x <= high.x + half);
+                    if count > 0 {
+                        each(&balls[from..from + count], corner);
+                    }
                 }
             }
         }
     }
-}
-
-/// Appends the balls of a row whose x lies in `range`.
-fn take_run(balls: &[Stored], range: [f64; 2], corner: [f64; 2], origin: DVec3, near: &mut Near) {
-    let from = balls.partition_point(|b| b.position.x < range[0]);
-    let count = balls[from..].partition_point(|b| b.position.x <= range[1]);
-    if count == 0 {
-        return;
-    }
-    let start = near.balls.len();
-    near.balls.extend(balls[from..from + count].iter().map(|b| {
-        let p = (b.position - origin).as_vec3();
-        Ball { x: p.x, y: p.y, z: p.z, weight: b.weight, group: b.group }
-    }));
-    let low = [(corner[0] - origin.y) as f32, (corner[1] - origin.z) as f32];
-    near.runs.push(Run { low, start, end: near.balls.len() });
 }

@@ -4,6 +4,7 @@
 //! high, little of the sky is seen (eq. 4).
 
 mod ambient;
+mod depth;
 mod directions;
 pub mod fast;
 mod field;
@@ -11,6 +12,7 @@ mod generators;
 mod grid;
 mod kernel;
 mod lattice;
+mod measure;
 mod medium;
 mod output;
 mod params;
@@ -23,6 +25,7 @@ mod tessellate;
 mod tests;
 
 pub use ambient::ambient_coefficient;
+pub use depth::crown_depth;
 pub use directions::{DIRECTIONS, sky_directions};
 pub use field::{Field, Query, Sample};
 use foliar_bake::{BakeError, Baked, Baker, Facts, Inputs, Needs, Progress, Requirement, Rung};

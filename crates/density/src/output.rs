@@ -2,7 +2,7 @@
 
 use crate::fast::{Places, Values};
 use crate::generators::Foliage;
-use crate::params::{AmbientTerm, Params};
+use crate::params::Params;
 use foliar_bake::{Array, AttributeKey, Baked};
 use foliar_plant::Plant;
 use foliar_schema::{Finding, code, names};
@@ -23,6 +23,7 @@ pub(crate) fn baked(plant: &Plant, foliage: &Foliage, places: &Places, values: &
     let mut baked = Baked {
         resolved: resolved(params, Some(foliage.radius)),
         facts: facts(foliage, values, params),
+        errors: values.errors.clone(),
         ..Baked::default()
     };
     for (n, &(index, start)) in places.parts.iter().enumerate() {
@@ -54,14 +55,14 @@ fn facts(foliage: &Foliage, values: &Values, params: &Params) -> Map<String, Val
     let mut facts = Map::new();
     let mut fact = |name: &str, value: Value| facts.insert(name.into(), value);
     fact("radiusM", json!(foliage.radius));
-    fact("referenceDensity", json!(values.reference));
     fact("generators", json!(foliage.own));
     fact("meanLeafAreaM2", json!(foliage.mean_area));
     fact("ambient", json!(params.ambient));
     fact("darkestAmbient", json!(params.darkest_ambient));
-    if params.ambient == AmbientTerm::Luft {
-        fact("threshold", json!(params.threshold * values.reference));
-        fact("darkestDensity", json!(params.darkest_density * values.reference));
+    if let Some(reference) = values.reference {
+        fact("referenceDensity", json!(reference));
+        fact("threshold", json!(params.threshold * reference));
+        fact("darkestDensity", json!(params.darkest_density * reference));
         fact("exponent", json!(params.exponent));
     }
     if let Some(radius) = values.sky_radius {

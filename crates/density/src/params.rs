@@ -18,13 +18,17 @@ pub enum SelfLeaf {
 }
 
 /// Which ambient term `_AMBIENT` holds.
+///
+/// The default was measured: rank correlation with the depth under the crown (`crown_depth`) on seven
+/// shared trees of 448 to 39,060 leaves, at about the automatic radius, is -.57 to -.94 for `sky` and .07 to
+/// -.89 for `luft`: where leaves grow in tufts, local density tells of the tuft, and the sky of the crown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AmbientTerm {
     /// k_a of the local density (Luft07 eq. 4).
-    #[default]
     Luft,
     /// Transmittance to the sky, averaged over all directions (Beer-Lambert through the density field).
+    #[default]
     Sky,
 }
 

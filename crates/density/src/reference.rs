@@ -73,5 +73,12 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
         _ => realigned(plant, places, &plan.of_place, &samples, params),
     };
     let asked = params.ambient == AmbientTerm::Sky || params.channels != Channels::Ambient;
-    Values { reference, ambient, normals, sky_radius: asked.then_some(radius) }
+    let luft = params.ambient == AmbientTerm::Luft && params.channels != Channels::Normals;
+    Values {
+        reference: luft.then_some(reference),
+        ambient,
+        normals,
+        sky_radius: asked.then_some(radius),
+        errors: Vec::new(),
+    }
 }

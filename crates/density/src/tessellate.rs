@@ -12,7 +12,7 @@ const VOXELS_PER_RADIUS: f64 = 2.0;
 /// Pieces per voxel edge.
 const PIECES_PER_VOXEL: f64 = 3.0;
 /// Most pieces of one plant: pieces grow beyond it.
-const MOST_PIECES: f64 = 2e6;
+const MOST_PIECES: f64 = 1e6;
 
 /// Balls of large leaves: places relative to the plant's center, and shares of the leaf that sum to 1.
 #[derive(Clone, Debug, Default)]

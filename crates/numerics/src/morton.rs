@@ -1,4 +1,4 @@
-//! Morton order (Morton 1966): places that are near in space come near in the list.
+//! Morton order: places that are near in space come near in the list.
 
 /// Bits of each coordinate that a Morton code keeps.
 pub const MORTON_BITS: u32 = 21;

@@ -1,5 +1,7 @@
 //! Tests of the room: reference values, laws of the house, laws of its own, extremes, times.
 
+mod extremes;
+mod field;
 mod laws;
 mod oracle;
 mod plants;
