@@ -1,6 +1,6 @@
 //! What xtask is asked.
 
-use crate::{faults, fixtures, generated, run_tests, tidy};
+use crate::{bench, faults, fixtures, generated, run_tests, tidy};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -31,6 +31,11 @@ enum Chore {
         #[arg(long)]
         large: bool,
     },
+    /// Measures every figure of xtask/gates.toml, in release
+    Bench {
+        /// Only those whose name contains this
+        name: Option<String>,
+    },
     /// Plants small faults in a scratch copy and demands that the tests they name go red
     Faults {
         /// Only those whose name contains this
@@ -48,6 +53,7 @@ pub fn main() -> ExitCode {
         Chore::Fixtures { check: true, .. } => fixtures::check(),
         Chore::Fixtures { large: true, .. } => fixtures::write_large().map(|path| println!("{}", path.display())),
         Chore::Fixtures { .. } => fixtures::write(),
+        Chore::Bench { name } => bench::run(name.as_deref()),
         Chore::Faults { name } => faults::run(name.as_deref()),
         Chore::Test => run_tests::run(),
     };

@@ -1,6 +1,7 @@
 //! Chores of the workspace: see `cargo xtask --help`.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "xtask talks to a person; nothing reads it")]
 
+mod bench;
 mod cli;
 mod faults;
 mod fixtures;
@@ -8,6 +9,7 @@ mod generated;
 mod obj_text;
 mod repo;
 mod run_tests;
+mod shared_trees;
 mod tidy;
 mod validator;
 

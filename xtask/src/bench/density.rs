@@ -1,0 +1,115 @@
+//! The density room: time, memory, error.
+
+use super::{Figure, allocations, least_seconds, missing};
+use crate::{repo, shared_trees};
+use anyhow::{Context, Result};
+use foliar_bake::{Inputs, Maps, Quiet, Request, run};
+use foliar_density::{Density, Field, Foliage, NO_GROUP, Params, Query, reference};
+use foliar_plant::{Plant, sample::Recipe};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use serde_json::Value;
+use std::process::Command;
+
+/// Bakes a plant by default parameters.
+pub fn bake(plant: &Plant) -> Result<foliar_bake::Layer> {
+    let maps = Maps::new();
+    let inputs = Inputs { plant: Some(plant), maps: &maps, neighbors: &[] };
+    Ok(run(&Density, &inputs, &Request::default(), &Quiet)?.0)
+}
+
+/// Seconds of a whole bake of the benchmark tree.
+pub fn seconds() -> Result<Figure> {
+    let plant = Recipe::bench_40k().grow();
+    let seconds = least_seconds(5, || bake(&plant).map(drop))?;
+    Ok(Figure::new(seconds, fft(&plant)?))
+}
+
+/// Peak of allocations over what is allowed.
+pub fn memory() -> Result<Figure> {
+    const BYTES_PER_VERTEX: usize = 32;
+    let plant = Recipe::bench_40k().grow();
+    let vertices: usize = plant.parts().iter().map(|p| p.positions.len()).sum();
+    let mut result = Ok(());
+    let peak = allocations::peak_bytes(|| result = bake(&plant).map(drop));
+    result?;
+    let allowed = 8 * BYTES_PER_VERTEX * vertices + 64_000_000;
+    Ok(Figure::new(peak as f64 / allowed as f64, format!("none; {:.1} of {:.1} MB", mega(peak), mega(allowed))))
+}
+
+fn mega(bytes: usize) -> f64 {
+    bytes as f64 / 1e6
+}
+
+/// Largest error of the density over all shared trees.
+pub fn field_error() -> Result<Figure> {
+    worst(|error, _| error.0)
+}
+
+/// Largest error of the gradient over all shared trees.
+pub fn gradient_error() -> Result<Figure> {
+    worst(|error, radius| error.1 * radius / 4.0)
+}
+
+fn worst(pick: fn((f64, f64), f64) -> f64) -> Result<Figure> {
+    let (mut worst, mut at, mut places) = (0.0, String::from("no tree"), 0);
+    for tree in shared_trees::all()? {
+        let plant = tree.read()?.plant;
+        if plant.leaves().is_empty() {
+            continue;
+        }
+        let foliage = Foliage::new(&plant, &[], &Params::default());
+        let queries = queries(&plant);
+        let error = largest_errors(&foliage, &queries, pick);
+        places += queries.len();
+        if error > worst {
+            (worst, at) = (error, tree.name);
+        }
+    }
+    Ok(Figure::new(worst, format!("f64 sums over all pairs at {places} vertices; worst is {at}")))
+}
+
+fn queries(plant: &Plant) -> Vec<Query> {
+    let place = |part: &foliar_plant::Part, v| part.rest_position(v) - plant.center();
+    let parts = plant.parts().iter();
+    let places = parts.flat_map(|part| (0..part.positions.len()).map(move |v| place(part, v)));
+    places.map(|position| Query { position, skip: NO_GROUP }).collect()
+}
+
+/// Errors relative to the weights in reach; places that no ball reaches must be exactly zero.
+fn largest_errors(foliage: &Foliage, queries: &[Query], pick: fn((f64, f64), f64) -> f64) -> f64 {
+    let fast = Field::new(&foliage.generators, foliage.radius).samples(queries);
+    let errors = queries.par_iter().zip(&fast).map(|(query, fast)| {
+        let exact = reference::field(&foliage.generators, foliage.radius, query);
+        let density = (f64::from(fast.density) - exact.density).abs();
+        let gradient = (fast.gradient.as_dvec3() - exact.gradient).length();
+        match exact.weight > 0.0 {
+            true => pick((density / exact.weight, gradient / exact.weight), foliage.radius),
+            false if density > 0.0 || gradient > 0.0 => f64::INFINITY,
+            false => 0.0,
+        }
+    });
+    errors.reduce(|| 0.0, f64::max)
+}
+
+/// What a numpy user has: the same leaves and vertices on an FFT grid of a quarter of the radius.
+fn fft(plant: &Plant) -> Result<String> {
+    let script = repo::shared().join("peers/density_fft.py");
+    let folder = repo::root().join("target/bench");
+    std::fs::create_dir_all(&folder)?;
+    let foliage = Foliage::new(plant, &[], &Params::default());
+    let centers: Vec<Vec3> = foliage.generators.iter().map(|g| g.position.as_vec3()).collect();
+    let vertices: Vec<Vec3> = queries(plant).iter().map(|q: &Query| DVec3::as_vec3(&q.position)).collect();
+    let (centers_file, vertices_file) = (folder.join("centers.f32"), folder.join("vertices.f32"));
+    std::fs::write(&centers_file, bytes(&centers))?;
+    std::fs::write(&vertices_file, bytes(&vertices))?;
+    let mut python = Command::new("python3");
+    python.arg(script).args([centers_file, vertices_file]).args([foliage.radius.to_string().as_str(), "4"]);
+    let Ok(printed) = repo::output(&mut python) else { return Ok(missing("numpy and scipy")) };
+    let report: Value = serde_json::from_str(&printed).context("density_fft.py printed no JSON")?;
+    Ok(format!("numpy FFT at radius/4, field alone: {:.3} s", report["seconds"].as_f64().unwrap_or(f64::NAN)))
+}
+
+fn bytes(places: &[Vec3]) -> Vec<u8> {
+    places.iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes).collect()
+}
