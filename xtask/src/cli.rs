@@ -1,6 +1,6 @@
 //! What xtask is asked.
 
-use crate::{bench, faults, fixtures, generated, run_tests, tidy};
+use crate::{bench, faults, fixtures, gallery, generated, run_tests, tidy};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -36,6 +36,8 @@ enum Chore {
         /// Only those whose name contains this
         name: Option<String>,
     },
+    /// Bakes every shared tree: plain, baked, difference on one page in target/gallery
+    Gallery,
     /// Plants small faults in a scratch copy and demands that the tests they name go red
     Faults {
         /// Only those whose name contains this
@@ -54,6 +56,7 @@ pub fn main() -> ExitCode {
         Chore::Fixtures { large: true, .. } => fixtures::write_large().map(|path| println!("{}", path.display())),
         Chore::Fixtures { .. } => fixtures::write(),
         Chore::Bench { name } => bench::run(name.as_deref()),
+        Chore::Gallery => gallery::run(),
         Chore::Faults { name } => faults::run(name.as_deref()),
         Chore::Test => run_tests::run(),
     };

@@ -1,13 +1,13 @@
 //! Everything that must pass before work is handed in, one step after the other.
 
-use crate::{fixtures, generated, repo, tidy, validator};
+use crate::{fixtures, generated, repo, second_reading, tidy, validator};
 use anyhow::{Result, bail};
 use std::process::Command;
 
 type Step = (&'static str, fn() -> Result<()>);
 
 /// In the order in which a person wants to hear of a fault.
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     ("format", || cargo(&["fmt", "--all", "--check"])),
     ("tidy", tidy::run),
     ("lints", || cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])),
@@ -18,6 +18,7 @@ const STEPS: [Step; 8] = [
     ("fixtures", fixtures::check),
     ("tests", tests),
     ("validator", validator::run),
+    ("second reader", second_reading::run),
 ];
 
 /// Runs every step, even after one failed, and names those that did.

@@ -40,12 +40,28 @@ pub fn worst() -> Result<Figure> {
 
 /// Correlation of the ambient coefficient with depth over a plant's leaves.
 pub fn of(plant: &Plant, layer: &Layer) -> Option<f64> {
+    let (depths, ambients): (Vec<f64>, Vec<f64>) = by_depth(plant, layer).into_iter().unzip();
+    spearman(&ambients, &depths)
+}
+
+/// Mean ambient coefficient of the quarter of the leaves nearest to the rim, and of the deepest quarter.
+pub fn rim_and_inside(plant: &Plant, layer: &Layer) -> (f64, f64) {
+    let leaves = by_depth(plant, layer);
+    let quarter = leaves.len().div_ceil(4);
+    let mean = |leaves: &[(f64, f64)]| leaves.iter().map(|l| l.1).sum::<f64>() / leaves.len() as f64;
+    (mean(&leaves[..quarter]), mean(&leaves[leaves.len() - quarter..]))
+}
+
+/// Depth and ambient coefficient of the leaves that are asked, by depth.
+fn by_depth(plant: &Plant, layer: &Layer) -> Vec<(f64, f64)> {
     let ambient = ambient_of_leaves(plant, layer);
     let count = plant.leaves().len();
     let asked: Vec<usize> = (0..ASKED.min(count)).map(|i| i * count / ASKED.min(count)).collect();
     let asked: Vec<usize> = asked.into_iter().filter(|&leaf| ambient[leaf].is_finite()).collect();
-    let depths = depths(plant, &asked);
-    spearman(&asked.iter().map(|&leaf| ambient[leaf]).collect::<Vec<_>>(), &depths)
+    let mut leaves: Vec<(f64, f64)> =
+        depths(plant, &asked).into_iter().zip(asked.iter().map(|&leaf| ambient[leaf])).collect();
+    leaves.sort_by(|a, b| a.0.total_cmp(&b.0));
+    leaves
 }
 
 /// Mean over each leaf's vertices; NaN for leaves without vertices.
@@ -95,8 +111,7 @@ mod tests {
         let all: Vec<usize> = (0..plant.leaves().len()).collect();
         let depths = depths(plant, &all);
         let middle = plant.leaves().iter().map(|l| l.center.as_dvec3()).sum::<DVec3>() / all.len() as f64;
-        let from_middle: Vec<f64> =
-            plant.leaves().iter().map(|l| l.center.as_dvec3().distance(middle)).collect();
+        let from_middle: Vec<f64> = plant.leaves().iter().map(|l| l.center.as_dvec3().distance(middle)).collect();
         assert!(spearman(&from_middle, &depths).unwrap() < -0.5);
     }
 }

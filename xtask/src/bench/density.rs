@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use foliar_bake::{Inputs, Maps, Quiet, Request, run};
 use foliar_density::{Density, Field, Foliage, NO_GROUP, Params, Query, reference};
 use foliar_plant::{Plant, sample::Recipe};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 use serde_json::Value;
 use std::process::Command;
@@ -99,7 +99,7 @@ fn fft(plant: &Plant) -> Result<String> {
     std::fs::create_dir_all(&folder)?;
     let foliage = Foliage::new(plant, &[], &Params::default());
     let centers: Vec<Vec3> = foliage.generators.iter().map(|g| g.position.as_vec3()).collect();
-    let vertices: Vec<Vec3> = queries(plant).iter().map(|q: &Query| DVec3::as_vec3(&q.position)).collect();
+    let vertices: Vec<Vec3> = queries(plant).iter().map(|q| q.position.as_vec3()).collect();
     let (centers_file, vertices_file) = (folder.join("centers.f32"), folder.join("vertices.f32"));
     std::fs::write(&centers_file, bytes(&centers))?;
     std::fs::write(&vertices_file, bytes(&vertices))?;

@@ -2,8 +2,8 @@
 
 mod allocations;
 mod calibration;
-mod correlation;
-mod density;
+pub mod correlation;
+pub mod density;
 mod gates;
 mod programs;
 mod reading;

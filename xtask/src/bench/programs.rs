@@ -9,7 +9,15 @@ use std::process::Command;
 
 /// Wall time of `foliar bake` on a tree of 12,000 leaves.
 pub fn bake() -> Result<Figure> {
-    repo::run(repo::cargo().args(["build", "--release", "--quiet", "--package", "foliar-programs", "--bin", "foliar"]))?;
+    repo::run(repo::cargo().args([
+        "build",
+        "--release",
+        "--quiet",
+        "--package",
+        "foliar-programs",
+        "--bin",
+        "foliar",
+    ]))?;
     let tree = repo::shared().join("trees/sapling_birch_12k/tree.obj");
     let output = repo::root().join("target/bench/birch.glb");
     std::fs::create_dir_all(repo::root().join("target/bench"))?;
@@ -28,7 +36,6 @@ pub fn picture() -> Result<Figure> {
     let plant = Recipe::bench_40k().grow();
     let layer = density::bake(&plant)?;
     let params = ViewParams { width_px: 960, height_px: 720, samples: 16, ..ViewParams::default() };
-    let seconds =
-        least_seconds(3, || Ok(foliar_view::render(&plant, &[&layer], &Shading::Baked, &params).map(drop)?))?;
+    let seconds = least_seconds(3, || Ok(foliar_view::render(&plant, &[&layer], &Shading::Baked, &params).map(drop)?))?;
     Ok(Figure::new(seconds, "none"))
 }

@@ -32,9 +32,8 @@ fn ratio(path: &Path, ours: impl Fn() -> Result<()>, options: &tobj::LoadOptions
     let (mut our_seconds, mut their_seconds) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..3 {
         our_seconds = our_seconds.min(least_seconds(1, &ours)?);
-        their_seconds = their_seconds.min(least_seconds(1, || {
-            tobj::load_obj(path, options).map(drop).context("tobj cannot read the file")
-        })?);
+        their_seconds = their_seconds
+            .min(least_seconds(1, || tobj::load_obj(path, options).map(drop).context("tobj cannot read the file"))?);
     }
     let peer = format!("tobj {their_seconds:.3} s, foliar {our_seconds:.3} s, {megabytes:.1} MB");
     Ok(Figure::new(our_seconds / their_seconds, peer))
