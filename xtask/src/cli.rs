@@ -1,6 +1,6 @@
 //! What xtask is asked.
 
-use crate::{bench, faults, fixtures, gallery, generated, run_tests, tidy};
+use crate::{faults, fixtures, generated, run_tests, tidy, with_foliar};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -38,6 +38,8 @@ enum Chore {
     },
     /// Bakes every shared tree: plain, baked, difference on one page in target/gallery
     Gallery,
+    /// Reads every output of the tests by a reader that shares no code with the writer
+    SecondReader,
     /// Plants small faults in a scratch copy and demands that the tests they name go red
     Faults {
         /// Only those whose name contains this
@@ -55,8 +57,9 @@ pub fn main() -> ExitCode {
         Chore::Fixtures { check: true, .. } => fixtures::check(),
         Chore::Fixtures { large: true, .. } => fixtures::write_large().map(|path| println!("{}", path.display())),
         Chore::Fixtures { .. } => fixtures::write(),
-        Chore::Bench { name } => bench::run(name.as_deref()),
-        Chore::Gallery => gallery::run(),
+        Chore::Bench { name } => with_foliar::run("bench", name.as_deref()),
+        Chore::Gallery => with_foliar::run("gallery", None),
+        Chore::SecondReader => with_foliar::run("second-reader", None),
         Chore::Faults { name } => faults::run(name.as_deref()),
         Chore::Test => run_tests::run(),
     };

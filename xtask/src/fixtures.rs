@@ -2,10 +2,8 @@
 
 use crate::obj_text::{self, Detail};
 use crate::repo;
-use crate::shared_trees::SharedTree;
 use anyhow::{Context, Result, bail};
 use foliar_plant::{Base, Raster, sample::Recipe};
-use foliar_schema::{Import, Unit, Up};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::path::PathBuf;
@@ -21,12 +19,6 @@ pub fn write() -> Result<()> {
         println!("{file}: {} bytes", bytes.len());
     }
     Ok(())
-}
-
-/// The linden as a tree to bake.
-pub fn linden_tree() -> SharedTree {
-    let import = Import { up: Some(Up::Y), unit: Some(Unit::M), ..Import::default() };
-    SharedTree { name: format!("{LINDEN}/linden.obj"), path: repo::root().join(LINDEN).join("linden.obj"), import }
 }
 
 /// Compares fixtures/ with what the generator gives.

@@ -2,7 +2,7 @@
 //! contact sheet, in target/gallery.
 
 use crate::bench::{correlation, density};
-use crate::{fixtures, repo, shared_trees};
+use crate::{repo, shared_trees};
 use anyhow::{Context, Result};
 use foliar_bake::Layer;
 use foliar_plant::Plant;
@@ -17,7 +17,7 @@ const COLUMNS: usize = 6;
 pub fn run() -> Result<()> {
     let folder = repo::root().join(FOLDER);
     std::fs::create_dir_all(&folder).context("target/gallery cannot be made")?;
-    let mut trees = vec![fixtures::linden_tree()];
+    let mut trees = vec![shared_trees::linden()];
     trees.extend(shared_trees::all()?);
     let (mut rows, mut panels) = (String::new(), Vec::new());
     for tree in trees {

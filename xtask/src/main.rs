@@ -1,19 +1,24 @@
 //! Chores of the workspace: see `cargo xtask --help`.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "xtask talks to a person; nothing reads it")]
 
+#[cfg(feature = "foliar")]
 mod bench;
 mod cli;
 mod faults;
 mod fixtures;
+#[cfg(feature = "foliar")]
 mod gallery;
 mod generated;
 mod obj_text;
 mod repo;
 mod run_tests;
+#[cfg(feature = "foliar")]
 mod second_reading;
+#[cfg(feature = "foliar")]
 mod shared_trees;
 mod tidy;
 mod validator;
+mod with_foliar;
 
 fn main() -> std::process::ExitCode {
     cli::main()

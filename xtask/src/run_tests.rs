@@ -1,6 +1,6 @@
 //! Everything that must pass before work is handed in, one step after the other.
 
-use crate::{fixtures, generated, repo, second_reading, tidy, validator};
+use crate::{fixtures, generated, repo, tidy, validator, with_foliar};
 use anyhow::{Result, bail};
 use std::process::Command;
 
@@ -10,7 +10,9 @@ type Step = (&'static str, fn() -> Result<()>);
 const STEPS: [Step; 9] = [
     ("format", || cargo(&["fmt", "--all", "--check"])),
     ("tidy", tidy::run),
-    ("lints", || cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])),
+    ("lints", || {
+        cargo(&["clippy", "--workspace", "--all-targets", "--all-features", "--quiet", "--", "-D", "warnings"])
+    }),
     ("documents", || {
         repo::run(repo::cargo().args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))
     }),
@@ -18,7 +20,7 @@ const STEPS: [Step; 9] = [
     ("fixtures", fixtures::check),
     ("tests", tests),
     ("validator", validator::run),
-    ("second reader", second_reading::run),
+    ("second reader", || with_foliar::run("second-reader", None)),
 ];
 
 /// Runs every step, even after one failed, and names those that did.
@@ -41,7 +43,7 @@ pub fn run() -> Result<()> {
 /// All tests, on a clean folder of outputs: the validator must not judge yesterday's.
 fn tests() -> Result<()> {
     let _ = std::fs::remove_dir_all(repo::root().join(validator::OUTPUTS));
-    cargo(&["test", "--workspace", "--quiet"])
+    cargo(&["test", "--workspace", "--all-features", "--quiet"])
 }
 
 fn cargo(arguments: &[&str]) -> Result<()> {

@@ -4,7 +4,7 @@ use crate::repo;
 use anyhow::{Context, Result};
 use foliar_bake::Layer;
 use foliar_plant::Plant;
-use foliar_schema::{Import, Roles};
+use foliar_schema::{Import, Roles, Unit, Up};
 use foliar_structure::{StructureParams, analyze};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -36,6 +36,12 @@ pub fn all() -> Result<Vec<SharedTree>> {
     let expected: Value = serde_json::from_str(&text)?;
     let files = expected["files"].as_object().context("expected.json lists no files")?;
     files.iter().map(|(name, notes)| tree(name, notes, folder.join(name))).collect()
+}
+
+/// The linden of fixtures/.
+pub fn linden() -> SharedTree {
+    let import = Import { up: Some(Up::Y), unit: Some(Unit::M), ..Import::default() };
+    SharedTree { name: "linden".into(), path: repo::root().join("fixtures/linden/linden.obj"), import }
 }
 
 fn tree(name: &str, notes: &Value, path: PathBuf) -> Result<SharedTree> {

@@ -8,7 +8,6 @@ mod gates;
 mod programs;
 mod reading;
 
-use crate::repo;
 use anyhow::{Result, bail};
 use gates::Gate;
 
@@ -44,12 +43,6 @@ const MEASURES: [Measure; 10] = [
 
 /// Measures every figure whose name contains `name`.
 pub fn run(name: Option<&str>) -> Result<()> {
-    if cfg!(debug_assertions) {
-        // Figures of an unoptimized build say nothing: the same again, in release.
-        let mut cargo = repo::cargo();
-        cargo.args(["run", "--release", "--quiet", "--package", "xtask", "--", "bench"]).args(name);
-        return repo::run(&mut cargo);
-    }
     let gates = gates::read()?;
     let chosen: Vec<&Measure> = MEASURES.iter().filter(|m| name.is_none_or(|n| m.0.contains(n))).collect();
     if chosen.is_empty() {
