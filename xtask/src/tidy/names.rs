@@ -44,7 +44,12 @@ fn holds(literal: &str, name: &str) -> bool {
     let word = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric());
     literal.match_indices(name).any(|(at, _)| {
         let after = literal[at + name.len()..].chars().next();
-        !word(literal[..at].chars().next_back()) && (name.ends_with([':', '_']) || !(word(after) || after == Some('_')))
+        !word(literal[..at].chars().next_back())
+            && match name.chars().next_back() {
+                // A prefix stands before more of a name.
+                Some(':' | '_') => after != Some(' '),
+                _ => !(word(after) || after == Some('_')),
+            }
     })
 }
 
@@ -64,5 +69,6 @@ mod tests {
     fn longer_words_are_not_ours() {
         assert!(!holds("\"_AMBIENT_OCCLUSION\"", "_AMBIENT"));
         assert!(holds("\"_FEATURE_ID_0\"", "_FEATURE_ID_"));
+        assert!(!holds("\"foliar: every tree\"", "foliar:") && holds("\"foliar:density\"", "foliar:"));
     }
 }

@@ -15,8 +15,9 @@ const TOP: [&str; 10] = [
 ];
 
 /// Hosts that texts may name: where a standard or a paper lives, and those reserved for examples.
-const HOSTS: [&str; 8] = [
+const HOSTS: [&str; 9] = [
     "json-schema.org",
+    "json.schemastore.org",
     "doi.org",
     "www.w3.org",
     "github.com/KhronosGroup",

@@ -71,7 +71,7 @@ fn completions(folder: &Path, mut command: Command) -> Result<(), Failure> {
 fn schemas(call: &Call, folder: &Path) -> Result<(), Failure> {
     write_text(&folder.join("foliar.toml.schema.json"), pretty(&configuration(call)?))?;
     let extension = schemars::schema_for!(FoliageExtension).to_value();
-    write_text(&folder.join("FOLIAR_foliage.schema.json"), pretty(&extension))
+    write_text(&folder.join(format!("{}.schema.json", foliar_schema::names::EXTENSION)), pretty(&extension))
 }
 
 /// JSON Schema of `foliar.toml`: one property per section, definitions of all sections together.
