@@ -12,9 +12,9 @@ const SEARCH_SIZE: f64 = 100.0;
 const LOW_V: f64 = 0.1;
 /// The same for distance from the leaf's center, far weaker: of an edge the middle is taken.
 const MIDDLE: f64 = 0.0004;
-/// Edges are cut in this many parts for pieces of at most so many triangles: cards need places
-/// between their corners, leaves of many triangles have vertices enough.
-const CUTS: [(usize, u32); 2] = [(4, 4), (16, 2)];
+/// Pieces of at most so many triangles offer the middles of their edges too: cards need a place between
+/// their corners, leaves of many triangles have vertices enough.
+const FEW_TRIANGLES: usize = 16;
 
 /// Wood to measure distances from.
 pub(crate) struct Wood {
@@ -41,7 +41,7 @@ impl Wood {
         Wood { tree: TriangleTree::new(&triangles), scale }
     }
 
-    /// The place among a piece's vertices (and cuts of its edges, where it has few) that is nearest to
+    /// The place among a piece's vertices (and middles of its margin, where it has few) that is nearest to
     /// the wood's surface; low v, then nearness to the center break ties. Without wood: the low v edge's middle.
     pub fn petiole(&self, part: &PartGeometry, piece: usize, center: DVec3, size: f64) -> DVec3 {
         let mut candidates = candidates(part, part.pieces.triangles(piece));
@@ -81,23 +81,19 @@ fn candidates(part: &PartGeometry, triangles: &[u32]) -> Vec<Candidate> {
         let [a, b, c] = part.part.triangles[triangle as usize];
         edges.extend([[a, b], [b, c], [c, a]]);
     }
-    let cuts = CUTS.iter().find(|(most, _)| triangles.len() <= *most).map_or(0, |c| c.1);
+    let few = triangles.len() <= FEW_TRIANGLES;
     let margin = || edges.iter().filter(|[from, to]| !edges.contains(&[*to, *from]));
-    let mut candidates: Vec<Candidate> = if cuts == 0 || margin().next().is_none() {
-        edges.iter().map(|&[from, _]| cut_edge(part, from, from, 0.0)).collect()
+    let mut candidates: Vec<Candidate> = if few && margin().next().is_some() {
+        margin().flat_map(|&[from, to]| [0.0, 0.5].map(|share| place_on(part, from, to, share))).collect()
     } else {
-        let places = |edge: &[u32; 2]| {
-            let [from, to] = *edge;
-            (0..cuts).map(move |cut| cut_edge(part, from, to, f64::from(cut) / f64::from(cuts)))
-        };
-        margin().flat_map(places).collect()
+        edges.iter().map(|&[from, _]| place_on(part, from, from, 0.0)).collect()
     };
     normalize(&mut candidates);
     candidates
 }
 
 /// A place on an edge, with height over the picture's bottom (glTF: v points down) or the ground.
-fn cut_edge(part: &PartGeometry, from: u32, to: u32, share: f64) -> Candidate {
+fn place_on(part: &PartGeometry, from: u32, to: u32, share: f64) -> Candidate {
     let (from, to) = (from as usize, to as usize);
     let place = part.positions[from].lerp(part.positions[to], share);
     let low = match (part.part.uvs.get(from), part.part.uvs.get(to)) {
