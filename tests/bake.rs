@@ -44,6 +44,17 @@ fn a_dry_run_prints_the_plan_and_writes_nothing() {
 }
 
 #[test]
+fn plan_and_roles_come_as_json_where_asked_for() {
+    let here = folder();
+    tree(here.path(), 60);
+    let arguments = ["bake", "tree.obj", "--dry-run", "--explain-roles", "--format", "json"];
+    let line = run_in(here.path(), FOLIAR, &arguments).expect(0, &[]).json_lines().remove(0);
+    assert_eq!((&line["status"], &line["plan"][0]["needed"]), (&"planned".into(), &true.into()));
+    assert!(line["plan"][0]["bytes"].as_u64().unwrap() > 0);
+    assert!(line["parts"][0]["evidence"][0]["reason"].is_string(), "{line}");
+}
+
+#[test]
 fn a_scene_without_ambient_and_soft_normals_needs_no_density() {
     let (here, out) = (folder(), output("bake-no-room.glb"));
     tree(here.path(), 60);

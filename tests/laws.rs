@@ -72,6 +72,28 @@ fn law_1_holds_on_a_real_glb() {
 }
 
 #[test]
+fn laws_1_and_3_hold_on_every_odd_plant() {
+    let here = folder();
+    for sample in foliar_plant::sample::odd_plants() {
+        let base = here.path().join(format!("{}.glb", sample.name));
+        crate::plants::write_glb(sample.plant.base(), &base);
+        let (baked, stripped) =
+            (output(&format!("odd-{}.glb", sample.name)), output(&format!("odd-{}-base.glb", sample.name)));
+        let bake = |input: &Path, word: &str| {
+            let run = run(FOLIAR, &["bake", text(input), "-o", text(&baked)]).expect(0, &[]);
+            assert!(run.stdout.contains(word), "{}: {run:?}", sample.name);
+        };
+        bake(&base, "written");
+        let ((old, old_bytes), (new, new_bytes)) = (open_glb(&base), open_glb(&baked));
+        assert_kept(&old, &new, "");
+        assert!(new_bytes.starts_with(&old_bytes), "{}: bytes of the base", sample.name);
+        bake(&baked, "unchanged");
+        run(FOLIAR, &["strip", text(&baked), "-o", text(&stripped)]).expect(0, &[]);
+        assert_eq!(open_glb(&stripped), (old, old_bytes), "{}", sample.name);
+    }
+}
+
+#[test]
 fn law_3_one_process_or_two_in_place_or_not_the_file_is_the_same() {
     let here = folder();
     let obj = tree(here.path(), 60);

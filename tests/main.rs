@@ -13,5 +13,6 @@ mod import;
 mod inspect;
 mod laws;
 mod layers;
+mod plants;
 mod streams;
 mod view;

@@ -4,7 +4,7 @@ use crate::cache::Cache;
 use crate::console::Console;
 use crate::gather::Sources;
 use crate::load::{Loaded, load};
-use crate::options::{Mode, Options, is_dash};
+use crate::options::{Format, Mode, Options, is_dash};
 use crate::outputs::{self, Job};
 use crate::plan::{self, Row};
 use crate::progress::Bar;
@@ -73,10 +73,11 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Statu
     let only = if baking.again { Some(recorded.as_slice()) } else { baking.only };
     let rows = plan::make(baking.bakers, &loaded.settings, only, &Facts::of(&loaded.plant))?;
     report.plan(&rows);
-    if baking.options.explain_roles {
+    let for_people = baking.options.format == Format::Human && baking.options.inputs.len() == 1;
+    if for_people && baking.options.explain_roles {
         baking.console.result(foliar_structure::explain(&loaded.evidence).trim_end())?;
     }
-    if baking.options.mode == Mode::DryRun {
+    if for_people && baking.options.mode == Mode::DryRun {
         baking.console.result(&plan::table(&rows))?;
     }
     let Some(output) = &job.output else { return Ok(Status::Planned) };

@@ -61,6 +61,9 @@ fn field_arg(field: &Field) -> Arg {
 fn value_name(field: &Field) -> String {
     match (&field.kind, field.section.as_str()) {
         (Kind::List(_), "roles") => "PATTERN".into(),
+        (Kind::Bool, _) => "true|false".into(),
+        (Kind::Number, _) => "NUMBER".into(),
+        (Kind::Integer, _) => "WHOLE NUMBER".into(),
         _ => field.flag().to_uppercase(),
     }
 }
@@ -190,15 +193,18 @@ pub fn with_baking(command: Command) -> Command {
                 .value_parser(["note", "warning", "error"])
                 .help("Findings as serious as this end the bake with status 1, the old output left as it is"),
         )
-        .arg(
-            Arg::new("threads")
-                .long("threads")
-                .value_name("N")
-                .value_parser(value_parser!(u16).range(1..))
-                .help("Works in so many threads; the result is the same for any number"),
-        )
+        .arg(threads())
         .arg(path("cache", "DIR", "Keeps layers by content: an unchanged room is not baked again"))
         .arg(switch("explain-roles", "Prints each part with its role and the evidence; without an output, stops there"))
+}
+
+/// `--threads N`.
+pub fn threads() -> Arg {
+    Arg::new("threads")
+        .long("threads")
+        .value_name("N")
+        .value_parser(value_parser!(u16).range(1..))
+        .help("Works in so many threads; the result is the same for any number")
 }
 
 /// `--only ROOM`.

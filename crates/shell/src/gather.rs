@@ -1,6 +1,7 @@
 //! All sources in their order: project file, asset file, record, environment, flags.
 
-use crate::config::{Fields, Settings, asset_file, from_environment, from_file, project_file};
+use crate::commands::Call;
+use crate::config::{Fields, Settings, asset_file, from_file, project_file};
 use crate::options::{Options, is_dash};
 use crate::{Failure, flags::Direct};
 use std::path::Path;
@@ -18,17 +19,14 @@ pub struct Sources<'a> {
     pub flags: Settings,
 }
 
-impl Sources<'_> {
-    /// Environment and flags of this process.
+impl<'a> Sources<'a> {
+    /// The environment of this process, and the flags.
     ///
     /// # Errors
-    /// [`Failure::Usage`] from either.
-    pub fn new<'a>(fields: &'a Fields, direct: Direct, matches: &clap::ArgMatches) -> Result<Sources<'a>, Failure> {
-        let variables =
-            std::env::vars_os().map(|(k, v)| (k.to_string_lossy().into_owned(), v.to_string_lossy().into_owned()));
-        let environment = from_environment(fields, variables)?;
-        let flags = crate::flags::given(fields, direct, matches)?;
-        Ok(Sources { fields, environment, flags })
+    /// [`Failure::Usage`] from the flags.
+    pub fn new(call: &Call<'a>, direct: Direct) -> Result<Sources<'a>, Failure> {
+        let flags = crate::flags::given(call.fields, direct, call.matches)?;
+        Ok(Sources { fields: call.fields, environment: call.environment.clone(), flags })
     }
 
     /// Everything given for one input, stronger over weaker. `record` is what a master says was given

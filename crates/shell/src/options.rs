@@ -1,5 +1,6 @@
 //! What was typed, taken out of clap's hands once.
 
+use crate::Failure;
 use crate::console::{Console, Verbosity};
 use clap::ArgMatches;
 use foliar_schema::Severity;
@@ -114,6 +115,16 @@ impl Options {
                 _ => Verbosity::Normal,
             },
         }
+    }
+
+    /// Starts as many threads as were asked for.
+    ///
+    /// # Errors
+    /// [`Failure::Fault`] where threads run already.
+    pub fn start_threads(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        pool.map_err(|e| Failure::Fault(format!("--threads {threads}: {e}")))
     }
 
     /// The console that these options ask for.

@@ -5,6 +5,7 @@ use crate::plan::Row;
 use crate::rooms::Room;
 use foliar_carrier::{Document, SourceKind};
 use foliar_schema::{Finding, names};
+use foliar_structure::Evidence;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -133,6 +134,8 @@ fn parts(loaded: &Loaded) -> Vec<Value> {
             object["confidence"] = json!(evidence.confidence);
             object["pieces"] = json!(evidence.pieces);
             object["crownVolume"] = json!(evidence.crown_volume);
+            let reason = |e: &Evidence| json!({"role": e.role.name(), "weight": e.weight, "reason": e.reason});
+            object["evidence"] = evidence.evidence.iter().map(reason).collect();
         }
         object
     };

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::commands::{Call, Program, commands, run};
-use crate::config::Fields;
+use crate::config::{Fields, from_environment};
 use crate::console::Console;
 use foliar_bake::Baker;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -39,7 +39,10 @@ fn start(program: &Program, bakers: &[&dyn Baker]) -> ExitCode {
 fn work(program: &Program, bakers: &[&dyn Baker]) -> Result<(), Failure> {
     let fields = Fields::new(bakers).map_err(Failure::Fault)?;
     let matches = commands(program, bakers, &fields).try_get_matches()?;
-    run(program, &Call { bakers, fields: &fields, matches: &matches })
+    let variables =
+        std::env::vars_os().map(|(k, v)| (k.to_string_lossy().into_owned(), v.to_string_lossy().into_owned()));
+    let environment = from_environment(&fields, variables)?;
+    run(program, &Call { bakers, fields: &fields, environment: &environment, matches: &matches })
 }
 
 /// Where a panic was, and what it said: the hook hears it on whichever thread it happens.

@@ -42,8 +42,8 @@ pub fn bake(
     let console = options.console();
     let jobs = if again { in_place(options)? } else { outputs::jobs(options)? };
     check_outputs(options, &jobs)?;
-    start_threads(options)?;
-    let sources = Sources::new(call.fields, direct, call.matches)?;
+    options.start_threads()?;
+    let sources = Sources::new(call, direct)?;
     let baking = Baking { bakers: call.bakers, only, sources: &sources, options, console: &console, again };
     let mut done = Done::default();
     for job in &jobs {
@@ -107,7 +107,7 @@ fn tell(baking: &Baking, report: &Map<String, Value>, several: bool) -> Result<(
         return Ok(());
     }
     if several || baking.options.format == Format::Json {
-        return baking.console.result(&Value::from(line(report)).to_string());
+        return baking.console.result(&Value::from(line(report, baking.options)).to_string());
     }
     let text = |name: &str| report.get(name).and_then(Value::as_str).unwrap_or_default().to_owned();
     match text("status").as_str() {
@@ -123,10 +123,13 @@ fn tell(baking: &Baking, report: &Map<String, Value>, several: bool) -> Result<(
     }
 }
 
-/// What a JSON line holds of a report.
-fn line(report: &Map<String, Value>) -> Map<String, Value> {
+/// What a JSON line holds of a report; the plan and the roles where they were asked for.
+fn line(report: &Map<String, Value>, options: &Options) -> Map<String, Value> {
     const KEPT: [&str; 8] = ["asset", "output", "status", "exit", "error", "leaves", "findings", "seconds"];
-    KEPT.iter().filter_map(|name| Some(((*name).to_owned(), report.get(*name)?.clone()))).collect()
+    let plan = (options.mode == Mode::DryRun).then_some("plan");
+    let parts = options.explain_roles.then_some("parts");
+    let names = KEPT.into_iter().chain(plan).chain(parts);
+    names.filter_map(|name| Some((name.to_owned(), report.get(name)?.clone()))).collect()
 }
 
 /// `foliar rebake` writes where it reads.
@@ -146,12 +149,6 @@ fn check_outputs(options: &Options, jobs: &[Job]) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-fn start_threads(options: &Options) -> Result<(), Failure> {
-    let Some(threads) = options.threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-    pool.map_err(|e| Failure::Fault(format!("--threads {threads}: {e}")))
 }
 
 fn write_lists(options: &Options, done: &Done) -> Result<(), Failure> {

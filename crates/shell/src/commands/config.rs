@@ -14,7 +14,7 @@ use std::path::Path;
 /// Runs the command.
 pub fn run(call: &Call) -> Result<(), Failure> {
     let options = Options::from(call.matches);
-    let sources = Sources::new(call.fields, Direct::Assets, call.matches)?;
+    let sources = Sources::new(call, Direct::Assets)?;
     let settings = match options.inputs.first() {
         None => sources.gather(&options, Path::new(""), Settings::default())?,
         Some(input) => with_implied(call, &sources, &options, input)?,

@@ -18,7 +18,7 @@ use std::path::Path;
 pub fn run(call: &Call) -> Result<(), Failure> {
     let options = Options::from(call.matches);
     let console = options.console();
-    let sources = Sources::new(call.fields, Direct::Assets, call.matches)?;
+    let sources = Sources::new(call, Direct::Assets)?;
     for input in &options.inputs {
         let held = if is_layer(input) { layer_file(input)? } else { asset(&sources, &options, &console, input)? };
         match options.format {

@@ -13,7 +13,7 @@ mod view;
 pub use tree::{Program, commands};
 
 use crate::Failure;
-use crate::config::Fields;
+use crate::config::{Fields, Settings};
 use clap::ArgMatches;
 use foliar_bake::Baker;
 
@@ -23,6 +23,8 @@ pub(crate) struct Call<'a> {
     pub bakers: &'a [&'a dyn Baker],
     /// All parameters.
     pub fields: &'a Fields,
+    /// What the environment gives.
+    pub environment: &'a Settings,
     /// What was typed.
     pub matches: &'a ArgMatches,
 }

@@ -133,7 +133,8 @@ fn view(command: Command, fields: &Fields) -> Command {
         .about("Draws a tree as it is lit, or a channel in false colors")
         .arg(flags::inputs("FILE", "OBJ, glTF or GLB file; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .png, or - for standard output").required(true))
-        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"));
+        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"))
+        .arg(flags::threads());
     flags::with_voice(flags::with_fields(command, fields, Direct::Section("view")))
 }
 

@@ -16,8 +16,9 @@ use std::path::PathBuf;
 pub fn run(call: &Call) -> Result<(), Failure> {
     let options = Options::from(call.matches);
     let job = job(&options)?;
+    options.start_threads()?;
     let console = options.console();
-    let sources = Sources::new(call.fields, Direct::Section("view"), call.matches)?;
+    let sources = Sources::new(call, Direct::Section("view"))?;
     let loaded = load(&sources, &options, &job.input).map_err(|e| e.in_file(&job.input.display().to_string()))?;
     for finding in &loaded.findings {
         console.finding(finding);

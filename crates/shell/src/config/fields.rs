@@ -3,7 +3,7 @@
 
 use foliar_bake::Baker;
 use foliar_schema::{Import, Pack, Roles, Scene};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// What a parameter holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +63,8 @@ impl Field {
         for (key, words) in LIMITS {
             facts.extend(self.schema.get(key).and_then(Value::as_f64).map(|limit| format!("{words} {limit}")));
         }
-        if !self.default.is_null() {
+        let says_nothing = self.default.is_null() || self.default == Value::Bool(false) || self.default == json!([]);
+        if !says_nothing {
             facts.push(format!("default {}", self.default));
         }
         let doc = self.doc.replace('\n', " ");
