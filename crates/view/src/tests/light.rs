@@ -170,3 +170,17 @@ fn false_colors_are_those_of_the_legend() {
     let ends = [picture.get_pixel(x, y).0, picture.get_pixel(x + legend::BAR[0] - 1, y).0];
     assert_eq!(ends, [0.0, 1.0].map(|share| colors::to_bytes(colors::ramp(share), 1.0)));
 }
+
+#[test]
+fn a_material_that_says_nothing_is_drawn_as_bark_or_foliage() {
+    let params = ViewParams { sun_azimuth_deg: 0.0, sun_elevation_deg: 90.0, ..frontal() };
+    let of = |role, material| {
+        middle(&plain(&plant(vec![(quad(Vec3::ZERO, Vec3::X, Vec3::Y), role, material)], vec![]), &params)).0
+    };
+    let [r, g, b, _] = of(Role::Leaf, gray(1.0));
+    assert!(g > r && r > b, "foliage is green: {r} {g} {b}");
+    let [r, g, b, _] = of(Role::Wood, gray(0.8));
+    assert!(r > g && g > b, "bark is brown: {r} {g} {b}");
+    let chosen = colors::to_bytes(0.3 * shade::SKY, 1.0);
+    assert!(close(of(Role::Leaf, gray(0.3)), chosen), "a color that somebody chose stays");
+}
