@@ -21,6 +21,7 @@ mod notes;
 pub mod obj;
 mod output;
 pub mod paths;
+mod pictures;
 mod read;
 mod rebase;
 mod scene;
@@ -148,7 +149,8 @@ pub fn check_layer(layer: &Layer, base_hash: &str) -> Result<(), CarrierError> {
 }
 
 /// The bytes of a document at `path`, by its ending: `.gltf` gives `STEM.bin` and the JSON after it,
-/// anything else one GLB. The last file is the commit. Relative URIs are rebased to the folder of `path`.
+/// anything else one GLB. The last file is the commit. Relative URIs are rebased to the folder of `path`;
+/// pictures that a GLB would have to climb out of that folder for join its buffer.
 ///
 /// # Errors
 /// [`CarrierError`] where a URI cannot be rebased.

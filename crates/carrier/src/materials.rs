@@ -3,6 +3,7 @@
 use crate::accessor::Source;
 use crate::container::read_uri;
 use crate::document::index_of;
+use crate::images::Format;
 use crate::{CarrierError, images};
 use foliar_plant::{AlphaMode, Material, Raster};
 use foliar_schema::{Finding, Import, code};
@@ -130,7 +131,7 @@ fn load(
         (None, None) => Err(source.fail(format!("/images/{image}"), "has neither uri nor bufferView")),
     };
     match bytes {
-        Ok(bytes) if is_unread_format(&bytes) => {
+        Ok(bytes) if matches!(images::sniff(&bytes), Format::Webp | Format::Ktx) => {
             let message = "a WebP or KTX2 picture is not decoded by this version";
             findings.push(texture_finding(source, image, message));
             Ok(None)
@@ -142,8 +143,4 @@ fn load(
         }
         Err(error) => Err(error),
     }
-}
-
-fn is_unread_format(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"\xABKTX 20") || (bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP"))
 }

@@ -1,7 +1,7 @@
 //! Writing: the bytes of .glb and .gltf, and files that appear complete or not at all.
 
 use crate::document::index_of;
-use crate::{CarrierError, Document, Outcome, OutputFile, container, rebase};
+use crate::{CarrierError, Document, Outcome, OutputFile, container, pictures, rebase};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
@@ -23,10 +23,10 @@ pub enum Step {
 
 /// The files of a document at `path`.
 pub(crate) fn encode(document: &Document, path: &Path) -> Result<Vec<OutputFile>, CarrierError> {
-    let mut document = document.clone();
+    let is_gltf = rebase::is_gltf(path);
+    let mut document = if is_gltf { document.clone() } else { pictures::take_along(document, path)? };
     rebase::move_to(&mut document, path)?;
-    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    if ending.as_deref() != Some("gltf") {
+    if !is_gltf {
         return Ok(vec![OutputFile { path: path.into(), bytes: glb(document, &path.display().to_string())? }]);
     }
     let mut files = Vec::new();

@@ -54,6 +54,23 @@ pub(crate) fn move_to(document: &mut Document, path: &Path) -> Result<(), Carrie
     Ok(())
 }
 
+/// Whether a document is written as JSON with its buffer beside it.
+pub(crate) fn is_gltf(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf"))
+}
+
+/// Images whose files lie outside the folder of `path`: index and file.
+pub(crate) fn outside(document: &Document, path: &Path) -> Vec<(usize, PathBuf)> {
+    let Some(from) = document.folder.as_deref().map(absolute) else { return Vec::new() };
+    let to = absolute(path.parent().unwrap_or(Path::new("")));
+    let file = |(index, image): (usize, &Value)| {
+        let uri = image.get("uri").and_then(Value::as_str).filter(|uri| !is_elsewhere(uri))?;
+        let file = from.join(percent_decode_str(uri).decode_utf8_lossy().as_ref());
+        relative(&file, &to).is_none_or(|r| r.starts_with("..")).then_some((index, file))
+    };
+    document.list("images").iter().enumerate().filter_map(file).collect()
+}
+
 /// Data and network URIs stay as they are.
 fn is_elsewhere(uri: &str) -> bool {
     uri.split_once(':').is_some_and(|(scheme, _)| scheme.len() > 1 && scheme.chars().all(|c| c.is_ascii_alphanumeric()))

@@ -196,10 +196,25 @@ fn uris_are_rebased_where_the_file_moves() {
     let search = Import { search: vec![folder.path().join("in").display().to_string()], ..Import::default() };
     let moved = read(&out.join("tree.gltf"), &search).unwrap();
     assert_eq!(moved.base_hash, asset.base_hash);
-    // Into a GLB: no buffer is left outside.
+    // Into a GLB: neither buffer nor picture is left outside; what is no picture is named as it was.
     let glb = encode(&asset.document, &out.join("tree.glb")).unwrap().remove(0).bytes;
     let inside: Document = from_memory_in(&glb, &out);
     assert_eq!(inside.buffers, asset.document.buffers);
+    assert_eq!(inside.json["images"][0]["uri"], "../in/pic%23ture.png", "there is no such file");
+    let raster = foliar_plant::Raster { name: String::new(), width: 1, height: 1, rgba: vec![9; 4], has_alpha: true };
+    let png = foliar_carrier::images::encode_png(&raster).unwrap();
+    std::fs::write(folder.path().join("in/pic#ture.png"), png).unwrap();
+    let glb = encode(&asset.document, &out.join("tree.glb")).unwrap().remove(0).bytes;
+    let inside = from_memory_in(&glb, &out);
+    assert_eq!(inside.json["images"][0]["mimeType"], "image/png");
+    // With layers on it: they come back, and so does the base with its picture.
+    let layers = layers_for(&asset);
+    let master = assemble(&asset.document, &layers).unwrap().0;
+    let glb = encode(&master, &out.join("tree.glb")).unwrap().remove(0).bytes;
+    let back = foliar_carrier::read_bytes(glb, "a.glb", &out, &Import::default()).unwrap();
+    assert_eq!((back.layers, back.base_hash), (layers, asset.base_hash));
+    assert_eq!(back.document.json.to_string(), inside.json.to_string());
+    assert_eq!(back.document.buffers, inside.buffers);
     // Where it stays, nothing changes.
     let same = encode(&asset.document, &folder.path().join("in/geo metry.gltf")).unwrap();
     let json: serde_json::Value = serde_json::from_slice(&same[1].bytes).unwrap();
