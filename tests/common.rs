@@ -81,6 +81,12 @@ pub fn output(name: &str) -> PathBuf {
     path
 }
 
+/// Leaves the foreign GLB that an output was made from beside it: the validator may then complain of the
+/// output as often as of its input, and no more.
+pub fn made_from(output: &Path, input: &Path) {
+    std::fs::copy(input, format!("{}.input", output.display())).unwrap();
+}
+
 /// A path as an argument.
 pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
