@@ -14,9 +14,9 @@ use rayon::prelude::*;
 /// Places of a sample.
 const PLACES: usize = 4096;
 /// Most chords summed to measure the sky; fewer places are measured where the crown has many balls.
-const MOST_CHORDS: usize = 1 << 24;
+const MOST_CHORDS: usize = 1 << 23;
 /// Fewest places of a sample.
-const FEWEST: usize = 16;
+const FEWEST: usize = 8;
 
 /// Indices of up to `most` of `count` places, evenly spread over the list.
 fn sample(count: usize, most: usize) -> Vec<usize> {

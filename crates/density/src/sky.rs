@@ -51,7 +51,8 @@ impl Sky {
             directions.par_iter().map(|toward| self.summed_depths(queries, *toward)).collect()
         } else {
             let density = self.lattice.splat(&self.balls);
-            directions.par_iter().map(|toward| self.swept_depths(&density, queries, *toward)).collect()
+            let own: Vec<&[Generator]> = queries.par_iter().map(|query| self.group(query.skip)).collect();
+            directions.par_iter().map(|toward| self.swept_depths(&density, queries, &own, *toward)).collect()
         };
         let sample = |(index, query): (usize, &Query)| {
             let depths = std::array::from_fn(|d| self.scale * f64::from(depths[d][index]));
@@ -70,24 +71,24 @@ impl Sky {
         queries.iter().map(depth).collect()
     }
 
-    /// The same from a sweep of the lattice, less the chords of the balls that a query leaves out.
-    fn swept_depths(&self, density: &[f32], queries: &[Query], toward: DVec3) -> Vec<f32> {
+    /// The same from a sweep of the lattice, less the chords of `own`, the balls that each query leaves out.
+    fn swept_depths(&self, density: &[f32], queries: &[Query], own: &[&[Generator]], toward: DVec3) -> Vec<f32> {
         let columns = self.lattice.columns(toward);
         let swept = self.lattice.sweep(density, &columns);
-        let depth = |query: &Query| {
+        let depth = |(query, own): (&Query, &&[Generator])| {
             let place = query.position / self.lattice.radius;
             let seen = self.lattice.value_toward(&swept, &columns, place, toward);
-            let own: f64 =
-                self.group(query.skip).map(|b| f64::from(b.weight) * chord(place - b.position, toward)).sum();
+            let own: f64 = own.iter().map(|b| f64::from(b.weight) * chord(place - b.position, toward)).sum();
             (f64::from(seen) - own).max(0.0) as f32
         };
-        queries.iter().map(depth).collect()
+        queries.iter().zip(own).map(depth).collect()
     }
 
     /// Own balls of a group.
-    fn group(&self, group: u32) -> impl Iterator<Item = &Generator> {
+    fn group(&self, group: u32) -> &[Generator] {
         let own = &self.balls[..self.own];
         let start = own.partition_point(|ball| ball.group < group);
-        own[start..].iter().take_while(move |ball| ball.group == group)
+        let count = own[start..].partition_point(|ball| ball.group == group);
+        &own[start..start + count]
     }
 }
