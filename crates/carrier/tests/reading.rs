@@ -116,6 +116,22 @@ fn sparse_accessors_change_zeros_and_stored_values() {
 }
 
 #[test]
+fn a_buffer_in_a_data_uri_is_the_same_buffer() {
+    use base64::Engine;
+    let document = plain().finish();
+    let mut json = document.json.clone();
+    let text = base64::engine::general_purpose::STANDARD.encode(&document.buffers[0]);
+    json["buffers"][0]["uri"] = format!("data:application/gltf-buffer;base64,{text}").into();
+    let asset = read_bytes(json.to_string().into_bytes(), "a.gltf", Path::new(""), &Import::default()).unwrap();
+    assert_eq!(asset.document.buffers, document.buffers);
+    assert_eq!(asset.base_hash, from_document(&document).base_hash);
+    // And with layers, through both containers.
+    let layers = layers_for(&asset);
+    let master = foliar_carrier::assemble(&asset.document, &layers).unwrap().0;
+    assert_eq!(from_document(&master).layers, layers);
+}
+
+#[test]
 fn strips_fans_and_lists_without_indices() {
     for (mode, triangles) in [(4, vec![[0, 1, 2]]), (5, vec![[0, 1, 2], [2, 1, 3]]), (6, vec![[0, 1, 2], [0, 2, 3]])] {
         let mut maker = Maker::new();
