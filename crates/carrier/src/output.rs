@@ -1,6 +1,5 @@
 //! Writing: the bytes of .glb and .gltf, and files that appear complete or not at all.
 
-use crate::document::index_of;
 use crate::{CarrierError, Document, Outcome, OutputFile, container, pictures, rebase};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -98,10 +97,10 @@ fn set_uri(json: &mut Value, index: usize, uri: Option<String>) {
 
 /// Keeps `byteLength` of every buffer equal to its bytes.
 pub(crate) fn set_byte_lengths(document: &mut Document) {
-    for (index, bytes) in document.buffers.iter().enumerate() {
-        let buffer = &mut document.json["buffers"][index];
-        if index_of(buffer, "byteLength") != Some(bytes.len()) {
-            buffer["byteLength"] = bytes.len().into();
+    let list = document.json.get_mut("buffers").and_then(Value::as_array_mut);
+    for (buffer, bytes) in list.into_iter().flatten().zip(&document.buffers) {
+        if let Some(buffer) = buffer.as_object_mut() {
+            buffer.insert("byteLength".into(), bytes.len().into());
         }
     }
 }

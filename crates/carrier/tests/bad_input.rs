@@ -216,7 +216,7 @@ fn a_damaged_extension_is_refused() {
     assert!(text.contains("/extensions/FOLIAR_foliage: is damaged"), "{text}");
 }
 
-/// Every JSON value of a master, one at a time, replaced by odd ones: refused or read, never a panic;
+/// Every JSON value of a master, one at a time, replaced by odd ones or gone: refused or read, never a panic;
 /// and what is read can be assembled or is refused.
 #[test]
 fn any_json_value_may_be_anything() {
@@ -230,14 +230,23 @@ fn any_json_value_may_be_anything() {
         {
             let mut changed = master.clone();
             *changed.json.pointer_mut(&pointer).unwrap() = odd;
-            if let Ok(bytes) = changed.to_glb() {
-                let _ = second_reader::verify(&bytes);
-                if let Ok(read) = attempt(&bytes, "a.glb") {
-                    let _ = assemble(&read.document, &read.layers);
-                    let _ = assemble(&read.document, &layers_for(&read));
-                }
-            }
+            read_and_assemble(&changed);
         }
+        let mut without = master.clone();
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        if let Some(object) = without.json.pointer_mut(parent).and_then(Value::as_object_mut) {
+            object.remove(&key.replace("~1", "/"));
+            read_and_assemble(&without);
+        }
+    }
+}
+
+fn read_and_assemble(document: &Document) {
+    let Ok(bytes) = document.to_glb() else { return };
+    let _ = second_reader::verify(&bytes);
+    if let Ok(read) = attempt(&bytes, "a.glb") {
+        let _ = assemble(&read.document, &read.layers);
+        let _ = assemble(&read.document, &layers_for(&read));
     }
 }
 

@@ -64,6 +64,7 @@ fn is_as_assembled(document: &Document, contents: &Contents) -> bool {
     let all_views = document.list("bufferViews");
     let all_accessors = document.list("accessors");
     contents.extension.base.contains_key("lengths")
+        && notes.byte_length.is_some() == (length("/buffers") > 0)
         && accessors <= all_accessors.len()
         && views <= all_views.len()
         && document.buffers.first().is_none_or(|b| byte_length <= b.len())
