@@ -20,11 +20,11 @@ pub struct Foot {
 /// The middle of the range of Morton codes.
 const MIDDLE: i64 = 1 << (MORTON_BITS - 1);
 /// Cells within which the order of places does not matter.
-const GRAIN: f64 = 2.0;
+const GRAIN: f64 = 0.5;
+/// Relative margin of a bound on a distance: more than f32 rounds a squared distance.
+const MARGIN: f32 = 1e-5;
 /// Places of one task, near each other.
 const TASK: usize = 256;
-/// Relative margin of a bound from the place before: f32 roundings of a distance.
-const MARGIN: f32 = 1e-4;
 
 /// The foot of each place (meters, relative to the plant's center) on the surface; `None` where the
 /// surface has no triangles. Give the surface without its cavities, or places inside get normals that point
@@ -54,21 +54,20 @@ fn closest(tree: &TriangleTree, places: &[DVec3], surface: &Surface) -> Option<V
     order.par_sort_unstable();
     let task = |task: &[(u64, u32)]| feet(tree, task, places, surface.origin);
     let found: Option<Vec<Closest>> = order.par_chunks(TASK).flat_map_iter(task).collect();
-    let mut closest = found?;
-    let mut sorted: Vec<(u32, Closest)> = order.iter().map(|o| o.1).zip(closest.drain(..)).collect();
+    let mut sorted: Vec<(u32, Closest)> = order.iter().map(|o| o.1).zip(found?).collect();
     sorted.par_sort_unstable_by_key(|s| s.0);
     Some(sorted.into_iter().map(|s| s.1).collect())
 }
 
-/// Closest points of places in a row: each is at most as far as the one before it, plus the way between.
+/// Closest points of places in a row: the foot of the one before bounds each one's distance.
 fn feet(tree: &TriangleTree, task: &[(u64, u32)], places: &[DVec3], origin: DVec3) -> Vec<Option<Closest>> {
-    let mut before: Option<(Vec3, f32)> = None;
+    let mut before: Option<Vec3> = None;
     let search = |&(_, index): &(u64, u32)| {
         let place = (places[index as usize] - origin).as_vec3();
-        let bound = before.map(|(last, distance)| distance + last.distance(place));
-        let near = bound.and_then(|b| tree.closest_within(place, b * b * (1.0 + MARGIN)));
+        let bound = before.map(|foot| foot.distance_squared(place) * (1.0 + MARGIN));
+        let near = bound.and_then(|bound| tree.closest_within(place, bound));
         let found = near.or_else(|| tree.closest(place))?;
-        before = Some((place, found.distance_squared.sqrt()));
+        before = Some(found.point);
         Some(found)
     };
     task.iter().map(search).collect()

@@ -148,6 +148,21 @@ fn a_hollow_crown_has_an_inner_sheet_that_can_be_dropped() {
     assert!(feet[0].point.length() > 1.0 && feet[0].normal.dot(feet[0].point) > 0.0);
 }
 
+#[test]
+fn feet_do_not_depend_on_what_else_is_asked() {
+    let generators = cluster(80);
+    let balls = Balls { generators: &generators, radius_m: 0.4, threshold: 0.8 };
+    let surface = exact_surface(balls, &cell(0.1));
+    let places: Vec<DVec3> = (0..600).map(|i| DVec3::from((r2_point(i), radical_inverse(i, 5))) * 4.0 - 2.0).collect();
+    let together = nearest(&surface, &Exact(balls), &places).unwrap();
+    for (place, foot) in places.iter().zip(&together) {
+        let alone = nearest(&surface, &Exact(balls), std::slice::from_ref(place)).unwrap()[0];
+        let distance = |foot: &Foot| (foot.point.as_dvec3() + surface.origin).distance(*place);
+        // The same distance to f32; where two triangles tie, either foot will do.
+        assert!((distance(&alone) - distance(foot)).abs() < 1e-6, "{place}: {alone:?}, {foot:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
     #[test]
