@@ -71,3 +71,50 @@ fn overlay(all: &mut Settings, stronger: Settings) -> Result<(), Failure> {
     all.overlay(stronger);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{Origin, from_environment};
+    use serde_json::Value;
+
+    fn source(fields: &Fields, name: &str, value: &str) -> Settings {
+        from_environment(fields, [(name.to_owned(), value.to_owned())].into_iter()).unwrap()
+    }
+
+    fn flags(fields: &Fields, name: &str, value: impl Into<Value>) -> Settings {
+        let mut flags = Settings::default();
+        flags.set(fields.find(name).unwrap(), value.into(), Origin::Flag("--test".into()));
+        flags
+    }
+
+    #[test]
+    fn a_flag_beats_the_environment_and_a_record() {
+        let fields = Fields::new(&[]).unwrap();
+        let options = Options { no_config: true, ..Options::default() };
+        let environment = source(&fields, "FOLIAR_IMPORT_NODE", "environment");
+        let gather = |environment: Settings, flags: Settings| {
+            let sources = Sources { fields: &fields, environment, flags };
+            let record = source(&fields, "FOLIAR_IMPORT_NODE", "record");
+            let all = sources.gather(&options, Path::new("tree.obj"), record).unwrap();
+            all.get("import.node").unwrap().value.clone()
+        };
+        assert_eq!(gather(Settings::default(), Settings::default()), "record");
+        assert_eq!(gather(environment.clone(), Settings::default()), "environment");
+        assert_eq!(gather(environment, flags(&fields, "import.node", "flag")), "flag");
+    }
+
+    #[test]
+    fn the_stronger_of_two_rivals_stays_and_equals_are_refused() {
+        let fields = Fields::new(&[]).unwrap();
+        let mut all = source(&fields, "FOLIAR_IMPORT_UNIT", "cm");
+        overlay(&mut all, flags(&fields, "import.height_m", 3.0)).unwrap();
+        assert!(all.get("import.unit").is_none() && all.get("import.height_m").is_some());
+        overlay(&mut all, source(&fields, "FOLIAR_IMPORT_UNIT", "cm")).unwrap();
+        assert!(all.get("import.unit").is_some() && all.get("import.height_m").is_none());
+        let mut both = source(&fields, "FOLIAR_IMPORT_UNIT", "cm");
+        both.overlay(source(&fields, "FOLIAR_IMPORT_HEIGHT_M", "3"));
+        let error = overlay(&mut Settings::default(), both).unwrap_err().to_string();
+        assert!(error.contains("import.unit") && error.contains("import.height_m"), "{error}");
+    }
+}
