@@ -23,7 +23,7 @@ _foliar__density() {
 
     case "${cmd}" in
         foliar__density)
-            opts="-o -d -q -v -h -V --output --directory --keep-going --picture --dry-run --check --report --depfile --outputs --fail-on --threads --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --radius-m --threshold --darkest-density --darkest-ambient --exponent --self-leaf --ambient --generators --channels --blend --unit --set --config --no-config --quiet --verbose --format --help --version"
+            opts="-o -d -q -v -h -V --output --directory --keep-going --picture --dry-run --check --report --depfile --outputs --fail-on --threads --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --radius-m --threshold --darkest-density --darkest-ambient --exponent --self-leaf --ambient --generators --channels --quality --blend --unit --set --config --no-config --quiet --verbose --format --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -149,6 +149,10 @@ _foliar__density() {
                     COMPREPLY=($(compgen -W "both ambient normals" -- "${cur}"))
                     return 0
                     ;;
+                --quality)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --blend)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -166,7 +170,7 @@ _foliar__density() {
                     return 0
                     ;;
                 --format)
-                    COMPREPLY=($(compgen -W "human json" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "human json sarif junit github" -- "${cur}"))
                     return 0
                     ;;
                 *)

@@ -14,13 +14,13 @@ z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar-density -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar-density -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar-density -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar-density -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar-density -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar-density -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar-density -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar-density -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar-density -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar-density -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar-density -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar-density -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar-density -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar-density -l wood -d 'Parts that are wood.' -r
+complete -c foliar-density -l other -d 'Parts that are no plant.' -r
 complete -c foliar-density -l radius-m -d 'Radius of influence of a leaf, meters (Luft07 eq. 2); nothing said: from the crown\'s size and the number of its leaves. [meters, above 0]' -r
 complete -c foliar-density -l threshold -d 'Density below which a place counts as outside, in units of the plant\'s median density (tau of Luft07 eq. 3). [at least 0, default 0.1]' -r
 complete -c foliar-density -l darkest-density -d 'Density above the threshold from which a place is darkest, in units of the plant\'s median density (d_min of Luft07 eq. 4). [above 0, default 2.0]' -r
@@ -28,13 +28,14 @@ complete -c foliar-density -l darkest-ambient -d 'Ambient coefficient of the dar
 complete -c foliar-density -l exponent -d 'How fast light falls off with density (n of Luft07 eq. 4). [above 0, default 3.0]' -r
 complete -c foliar-density -l self-leaf -d 'Whether a leaf\'s own group counts in the density at its vertices. [default "exclude"]' -r -f -a "exclude\t'All but the leaf\'s own group: a lone leaf is fully lit.'
 include\t'All, as the paper sums: a lone leaf shades itself.'"
-complete -c foliar-density -l ambient -d 'Ambient term: `luft` or `sky`. [default "luft"]' -r -f -a "luft\t'k_a of the local density (Luft07 eq. 4).'
+complete -c foliar-density -l ambient -d 'Ambient term: `luft` or `sky`. [default "sky"]' -r -f -a "luft\t'k_a of the local density (Luft07 eq. 4).'
 sky\t'Transmittance to the sky, averaged over all directions (Beer-Lambert through the density field).'"
 complete -c foliar-density -l generators -d 'What one metaball stands for. [default "leaf"]' -r -f -a "leaf\t'A leaf, weighted by its area with alpha (mean weight 1).'
 leafcount\t'A leaf, every one with weight 1.'"
 complete -c foliar-density -l channels -d 'Which channels are written. [default "both"]' -r -f -a "both\t'`_AMBIENT` and `_SOFT_NORMAL`.'
 ambient\t'`_AMBIENT` only.'
 normals\t'`_SOFT_NORMAL` only.'"
+complete -c foliar-density -l quality -d 'Error of the sky\'s normals and ambient term, rms, in visible steps of each channel: 3 cannot be told from exact, 12 is a preview. k_a of Luft07 eq. 4 is exact either way. [above 0, default 3.0]' -r
 complete -c foliar-density -l blend -d 'Share of the original normal in the realigned one (Luft07 section 4). [at least 0, at most 1, default 0.0]' -r
 complete -c foliar-density -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
@@ -43,14 +44,17 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar-density -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar-density -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar-density -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar-density -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar-density -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar-density -l dry-run -d 'Prints the plan and stops'
 complete -c foliar-density -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar-density -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar-density -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar-density -s q -l quiet -d 'Prints errors only'
-complete -c foliar-density -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar-density -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar-density -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar-density -s V -l version -d 'Print version'

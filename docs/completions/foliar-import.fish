@@ -14,13 +14,13 @@ z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar-import -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar-import -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar-import -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar-import -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar-import -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar-import -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar-import -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar-import -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar-import -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar-import -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar-import -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar-import -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar-import -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar-import -l wood -d 'Parts that are wood.' -r
+complete -c foliar-import -l other -d 'Parts that are no plant.' -r
 complete -c foliar-import -l crown-spacing-m -d 'Distance between the virtual leaves of a crown volume; nothing said means that each crown gets about a thousand. [meters, above 0]' -r
 complete -c foliar-import -l min-confidence -d 'A role that is less sure than this (0 to 1) is a finding. [at least 0, at most 1, default 0.8]' -r
 complete -c foliar-import -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
@@ -30,14 +30,17 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar-import -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar-import -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar-import -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar-import -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar-import -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar-import -l dry-run -d 'Prints the plan and stops'
 complete -c foliar-import -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar-import -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar-import -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar-import -s q -l quiet -d 'Prints errors only'
-complete -c foliar-import -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar-import -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar-import -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar-import -s V -l version -d 'Print version'

@@ -1,16 +1,17 @@
 complete -c foliar-view -s o -l output -d 'Output: .png, or - for standard output' -r -F
+complete -c foliar-view -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar-view -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar-view -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar-view -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar-view -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar-view -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar-view -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar-view -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar-view -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar-view -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar-view -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar-view -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar-view -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar-view -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar-view -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar-view -l wood -d 'Parts that are wood.' -r
+complete -c foliar-view -l other -d 'Parts that are no plant.' -r
 complete -c foliar-view -l width-px -d 'Width of the picture in pixels. [pixels, at least 16, at most 8192, default 960]' -r
 complete -c foliar-view -l height-px -d 'Height of the picture in pixels. [pixels, at least 16, at most 8192, default 720]' -r
 complete -c foliar-view -l samples -d 'Rays per pixel. [at least 1, at most 1024, default 16]' -r
@@ -36,11 +37,11 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar-view -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar-view -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar-view -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
+complete -c foliar-view -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
 json\t''"
 complete -c foliar-view -l sheet -d 'Draws a contact sheet: plain, baked, difference, ambient coefficient'
 complete -c foliar-view -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar-view -s q -l quiet -d 'Prints errors only'
-complete -c foliar-view -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar-view -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar-view -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar-view -s V -l version -d 'Print version'

@@ -50,13 +50,13 @@ z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l wood -d 'Parts that are wood.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
@@ -65,8 +65,11 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l only -d 'Bakes this room only, whatever the scene requires; repeatable' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l dry-run -d 'Prints the plan and stops'
@@ -74,7 +77,7 @@ complete -c foliar -n "__fish_foliar_using_subcommand bake" -l check -d 'Writes 
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s q -l quiet -d 'Prints errors only'
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s o -l output -d 'Output: .glb, .gltf, .layer (one room alone), or - for standard output' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s d -l directory -d 'Writes DIR/NAME.glb for each input' -r -F
@@ -92,13 +95,13 @@ z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l wood -d 'Parts that are wood.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
@@ -107,42 +110,45 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l dry-run -d 'Prints the plan and stops'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s q -l quiet -d 'Prints errors only'
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s o -l output -d 'Output: .glb, .gltf, or - for standard output' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
 json\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s q -l quiet -d 'Prints errors only'
-complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s h -l help -d 'Print help'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -s o -l output -d 'Output: .glb, .gltf, or - for standard output' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand strip" -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
 json\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -s q -l quiet -d 'Prints errors only'
-complete -c foliar -n "__fish_foliar_using_subcommand strip" -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -s h -l help -d 'Print help'
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l wood -d 'Parts that are wood.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
@@ -151,24 +157,24 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
 json\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand config" -s q -l quiet -d 'Prints errors only'
-complete -c foliar -n "__fish_foliar_using_subcommand config" -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand config" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand config" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node). [default false]' -r -f -a "true\t''
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
 false\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l texture -d 'Loose images for parts without one: PART=FILE. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l leaf -d 'Parts that are leaves. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l wood -d 'Parts that are wood. [default []]' -r
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l other -d 'Parts that are no plant. [default []]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l leaf -d 'Parts that are leaves.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l wood -d 'Parts that are wood.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
@@ -177,11 +183,11 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l format -d 'How results are printed: for people (human) or as JSON lines (json)' -r -f -a "human\t''
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
 json\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s q -l quiet -d 'Prints errors only'
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s v -l verbose -d 'Prints notes, and each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand generate" -s h -l help -d 'Print help'
 complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "bake" -d 'Bakes trees all the way: import, structure, every room that the scene needs, one glTF'
