@@ -37,7 +37,10 @@ enum Chore {
         name: Option<String>,
     },
     /// Bakes every shared tree: plain, baked, difference on one page in target/gallery
-    Gallery,
+    Gallery {
+        /// Only trees whose name contains this
+        name: Option<String>,
+    },
     /// Reads every output of the tests by a reader that shares no code with the writer
     SecondReader,
     /// Plants small faults in a scratch copy and demands that the tests they name go red
@@ -58,7 +61,7 @@ pub fn main() -> ExitCode {
         Chore::Fixtures { large: true, .. } => fixtures::write_large().map(|path| println!("{}", path.display())),
         Chore::Fixtures { .. } => fixtures::write(),
         Chore::Bench { name } => with_foliar::run("bench", name.as_deref()),
-        Chore::Gallery => with_foliar::run("gallery", None),
+        Chore::Gallery { name } => with_foliar::run("gallery", name.as_deref()),
         Chore::SecondReader => with_foliar::run("second-reader", None),
         Chore::Faults { name } => faults::run(name.as_deref()),
         Chore::Test => run_tests::run(),

@@ -13,12 +13,19 @@ const FOLDER: &str = "target/gallery";
 /// Pictures per row of the contact sheet: plain, baked and difference of two trees.
 const COLUMNS: usize = 6;
 
-/// Draws everything and says where it is.
-pub fn run() -> Result<()> {
+/// The picture of the README: plain and baked.
+const README_PICTURE: &str = "docs/pictures/linden.png";
+
+/// Draws every tree whose name contains `name` and says where the pictures are.
+pub fn run(name: Option<&str>) -> Result<()> {
     let folder = repo::root().join(FOLDER);
     std::fs::create_dir_all(&folder).context("target/gallery cannot be made")?;
     let mut trees = vec![shared_trees::linden()];
-    trees.extend(shared_trees::all()?);
+    match shared_trees::all() {
+        Ok(shared) => trees.extend(shared),
+        Err(error) => println!("skipped: {error:#}"),
+    }
+    trees.retain(|tree| name.is_none_or(|name| tree.name.contains(name)));
     let (mut rows, mut panels) = (String::new(), Vec::new());
     for tree in trees {
         println!("{}", tree.name);
@@ -27,6 +34,9 @@ pub fn run() -> Result<()> {
         let pictures = Pictures::draw(&read.plant, &[&read.layer, &baked])?;
         rows += &row(&tree.name, &tree.slug(), &figures(&read.plant, &baked, &pictures.changed));
         pictures.save(&folder, &tree.slug())?;
+        if tree.name == shared_trees::LINDEN {
+            pictures.save_for_readme()?;
+        }
         panels.extend(pictures.panels(&tree.name));
     }
     let sheet = contact_sheet(&panels, &["foliar: every shared tree, plain, baked and difference".into()], COLUMNS);
@@ -58,6 +68,13 @@ impl Pictures {
             std::fs::write(&path, png_bytes(picture)?).with_context(|| format!("{}", path.display()))?;
         }
         Ok(())
+    }
+
+    fn save_for_readme(&self) -> Result<()> {
+        let panels = [Panel::new("plain", self.plain.clone()), Panel::new("baked", self.baked.clone())];
+        let path = repo::root().join(README_PICTURE);
+        std::fs::create_dir_all(path.parent().context("a picture lies in a folder")?)?;
+        std::fs::write(&path, png_bytes(&contact_sheet(&panels, &[], 2))?).context(README_PICTURE)
     }
 
     fn panels(self, name: &str) -> [Panel; 3] {

@@ -38,10 +38,13 @@ pub fn all() -> Result<Vec<SharedTree>> {
     files.iter().map(|(name, notes)| tree(name, notes, folder.join(name))).collect()
 }
 
+/// Name of the linden of fixtures/.
+pub const LINDEN: &str = "linden";
+
 /// The linden of fixtures/.
 pub fn linden() -> SharedTree {
     let import = Import { up: Some(Up::Y), unit: Some(Unit::M), ..Import::default() };
-    SharedTree { name: "linden".into(), path: repo::root().join("fixtures/linden/linden.obj"), import }
+    SharedTree { name: LINDEN.into(), path: repo::root().join("fixtures/linden/linden.obj"), import }
 }
 
 fn tree(name: &str, notes: &Value, path: PathBuf) -> Result<SharedTree> {

@@ -27,7 +27,7 @@ pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
             repo::run(cargo.args(name))
         }
         "bench" => bench::run(name),
-        "gallery" => gallery::run(),
+        "gallery" => gallery::run(name),
         _ => second_reading::run(),
     }
 }
