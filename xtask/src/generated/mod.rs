@@ -107,9 +107,13 @@ fn difference(before: &str, after: &str) -> String {
         match (old.next(), new.next()) {
             (None, None) => return "white space at the end differs".into(),
             (a, b) if a == b => {}
-            (a, b) => return format!("line {number}: {:?} becomes {:?}", a.unwrap_or(""), b.unwrap_or("")),
+            (a, b) => return format!("line {number}: {:?} becomes {:?}", shortened(a), shortened(b)),
         }
     }
+}
+
+fn shortened(line: Option<&str>) -> String {
+    line.unwrap_or("").chars().take(60).collect()
 }
 
 #[cfg(test)]
