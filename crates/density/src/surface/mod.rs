@@ -1,8 +1,8 @@
 //! The implicit surface of the density (Luft07 eq. 3), as a closed triangle mesh, and normals from it.
 //!
 //! Marching cubes (Lorensen and Cline 1987) over a sparse lattice, in five steps: the blocks that balls
-//! reach ([`blocks`]), density at their corners ([`splat`]), cells and triangles ([`march`], [`table`]),
-//! vertices on the surface itself ([`refine`]). Lists of blocks are in Morton order, so every step
+//! reach (`blocks`), density at their corners (`splat`), cells and triangles (`march`, `table`),
+//! vertices on the surface itself (`refine`). Lists of blocks are in Morton order, so every step
 //! gives the same bytes for any number of threads.
 
 mod bins;
