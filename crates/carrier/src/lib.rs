@@ -1,7 +1,7 @@
 //! The only crate that knows file bytes: OBJ, glTF, images and layers in; glTF and layers out.
 //!
 //! Reading gives an [`Asset`]: the base glTF with every foliar layer taken out, the role-free
-//! [`Base`](foliar_plant::Base) that rooms see, and the layers that a master held. Writing goes the
+//! [`Base`] that rooms see, and the layers that a master held. Writing goes the
 //! other way: [`assemble`] puts layers onto the base, additively, and [`write()`] commits the bytes,
 //! all or nothing.
 

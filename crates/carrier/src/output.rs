@@ -114,7 +114,7 @@ pub(crate) fn is_unchanged(files: &[OutputFile]) -> bool {
     })
 }
 
-/// [`write_files`] with a hook before each step, whose error stops it there: how tests prove that a
+/// `write_files` with a hook before each step, whose error stops it there: how tests prove that a
 /// full disk or a kill at any moment leaves the old output whole.
 ///
 /// # Errors
