@@ -84,7 +84,9 @@ pub fn output(name: &str) -> PathBuf {
 /// Leaves the foreign GLB that an output was made from beside it: the validator may then complain of the
 /// output as often as of its input, and no more.
 pub fn made_from(output: &Path, input: &Path) {
-    std::fs::copy(input, format!("{}.input", output.display())).unwrap();
+    let copy = format!("{}.base", output.display());
+    std::fs::copy(input, &copy).unwrap();
+    std::fs::write(format!("{}.input", output.display()), copy).unwrap();
 }
 
 /// A path as an argument.

@@ -1,5 +1,5 @@
-//! The Khronos validator over every glTF that a test wrote. A file `X.glb.input` beside `X.glb` is the
-//! foreign GLB that X was made from: X may then earn each complaint as often as its input does.
+//! The Khronos validator over every glTF that a test wrote. A file `X.glb.input` beside `X.glb` holds
+//! the path of the foreign file that X was made from: X may then earn each complaint as often as it does.
 
 use crate::repo;
 use anyhow::{Context, Result, bail};
@@ -63,8 +63,8 @@ pub fn outputs() -> Result<Vec<PathBuf>> {
 }
 
 fn input_of(output: &Path) -> Option<PathBuf> {
-    let input = PathBuf::from(format!("{}.input", output.display()));
-    input.is_file().then_some(input)
+    let note = std::fs::read_to_string(format!("{}.input", output.display())).ok()?;
+    Some(PathBuf::from(note.trim()))
 }
 
 /// Installs the pinned validator unless it is there.
