@@ -45,8 +45,8 @@ enum Chore {
     SecondReader,
     /// Plants small faults in a scratch copy and demands that the tests they name go red
     Faults {
-        /// Only those whose name contains this
-        name: Option<String>,
+        /// Only those whose name contains one of these
+        names: Vec<String>,
     },
     /// Everything that must pass before work is handed in
     Test,
@@ -63,7 +63,7 @@ pub fn main() -> ExitCode {
         Chore::Bench { name } => with_foliar::run("bench", name.as_deref()),
         Chore::Gallery { name } => with_foliar::run("gallery", name.as_deref()),
         Chore::SecondReader => with_foliar::run("second-reader", None),
-        Chore::Faults { name } => faults::run(name.as_deref()),
+        Chore::Faults { names } => faults::run(&names),
         Chore::Test => run_tests::run(),
     };
     match done {

@@ -58,6 +58,12 @@ fn missing(command: &Command) -> String {
     format!("{program} could not be started: is it installed? (.ci/run installs what is missing on Debian)")
 }
 
+/// Folder that cargo builds into: CARGO_TARGET_DIR, else target.
+#[cfg(feature = "foliar")]
+pub fn build_folder() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
+}
+
 /// Folder of shared test data: FOLIAR_SHARED, else ../shared beside the repository.
 pub fn shared() -> PathBuf {
     std::env::var_os("FOLIAR_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from)

@@ -64,10 +64,16 @@ pub fn run(name: Option<&str>) -> Result<()> {
 fn report(name: &str, gate: &Gate, figure: &Figure) -> bool {
     let passes = gate.at_most.is_none_or(|most| figure.value <= most);
     let (value, unit) = (figure.value, if gate.unit == "1" { "" } else { gate.unit.as_str() });
-    let limit = gate.at_most.map_or("no gate".into(), |most| format!("at most {most}{unit}"));
+    let limit = gate.at_most.map_or("no gate".into(), |most| format!("at most {}{unit}", digits(most)));
     let verdict = if passes { "pass" } else { "MISS" };
-    println!("{verdict}  {name}: {value:.4e}{unit} ({value:.4}), {limit}; {}; peer: {}", gate.what, figure.peer);
+    let value = digits(value);
+    println!("{verdict}  {name}: {value}{unit}, {limit}; {}; peer: {}", gate.what, figure.peer);
     passes
+}
+
+/// Three digits that a person can read, whatever the size of the number.
+fn digits(value: f64) -> String {
+    if (1e-2..1e4).contains(&value.abs()) { format!("{value:.3}") } else { format!("{value:.2e}") }
 }
 
 /// The least of several runs, seconds: what the machine can do when nobody disturbs it.

@@ -24,7 +24,7 @@ pub fn bake() -> Result<Figure> {
     let seconds = least_seconds(3, || {
         // An output that is there already would be left untouched, which costs less.
         let _ = std::fs::remove_file(&output);
-        let mut foliar = Command::new(repo::root().join("target/release/foliar"));
+        let mut foliar = Command::new(repo::build_folder().join("release/foliar"));
         foliar.args(["bake", "--quiet", "--unit", "m", "--up", "y"]).arg(&tree).arg("-o").arg(&output);
         repo::run(&mut foliar)
     })?;

@@ -38,12 +38,14 @@ impl Verdict {
     }
 }
 
-/// Plants every fault whose name contains `name`, and prints what came of it.
-pub fn run(name: Option<&str>) -> Result<()> {
+/// Plants every fault whose name contains one of `names` (all where there are none), and prints what came of it.
+pub fn run(names: &[String]) -> Result<()> {
     let faults = all()?;
-    let chosen: Vec<&Fault> = faults.iter().filter(|f| name.is_none_or(|n| f.name.contains(n))).collect();
+    let is_named = |f: &&Fault| names.is_empty() || names.iter().any(|name| f.name.contains(name.as_str()));
+    let chosen: Vec<&Fault> = faults.iter().filter(is_named).collect();
     if chosen.is_empty() {
-        bail!("no fault is named like {:?}; there are {}", name.unwrap_or(""), names(&faults));
+        let all: Vec<&str> = faults.iter().map(|f| f.name.as_str()).collect();
+        bail!("no fault is named like {}; there are {}", names.join(", "), all.join(", "));
     }
     let copy = Copy::refresh()?;
     let mut green: BTreeMap<&[String], bool> = BTreeMap::new();
@@ -88,8 +90,4 @@ fn plant(copy: &Copy, fault: &Fault) -> Result<Verdict> {
     };
     copy.restore(fault)?;
     Ok(verdict)
-}
-
-fn names(faults: &[Fault]) -> String {
-    faults.iter().map(|f| f.name.as_str()).collect::<Vec<_>>().join(", ")
 }
