@@ -1,7 +1,7 @@
 //! All sources in their order: project file, asset file, record, environment, flags.
 
 use crate::commands::Call;
-use crate::config::{Fields, Settings, asset_file, from_file, project_file};
+use crate::config::{Fields, Given, Settings, asset_file, from_file, project_file};
 use crate::options::{Options, is_dash};
 use crate::{Failure, flags::Direct};
 use std::path::Path;
@@ -42,6 +42,7 @@ impl<'a> Sources<'a> {
         overlay(&mut all, record)?;
         overlay(&mut all, self.environment.clone())?;
         overlay(&mut all, self.flags.clone())?;
+        one_role_each(&all)?;
         Ok(all)
     }
 }
@@ -69,6 +70,26 @@ fn overlay(all: &mut Settings, stronger: Settings) -> Result<(), Failure> {
         }
     }
     all.overlay(stronger);
+    Ok(())
+}
+
+/// Refuses a pattern that stands in the lists of two roles.
+fn one_role_each(all: &Settings) -> Result<(), Failure> {
+    let mut seen: Vec<(String, &str, &Given)> = Vec::new();
+    for name in ["roles.leaf", "roles.wood", "roles.other"] {
+        let Some(given) = all.get(name) else { continue };
+        for pattern in given.value.as_array().into_iter().flatten().filter_map(|entry| entry.as_str()) {
+            // Patterns ignore case.
+            let folded = pattern.to_lowercase();
+            if let Some((_, other, by)) = seen.iter().find(|(text, other, _)| *text == folded && *other != name) {
+                return Err(Failure::usage(format!(
+                    "{pattern:?} stands in {other} ({}) and in {name} ({}): a part has one role: take it out of one of them",
+                    by.origin, given.origin
+                )));
+            }
+            seen.push((folded, name, given));
+        }
+    }
     Ok(())
 }
 

@@ -9,7 +9,6 @@ use foliar_carrier::{Asset, Document, SourceKind};
 use foliar_plant::{Base, Plant};
 use foliar_schema::{Finding, Import, names};
 use foliar_structure::{PartEvidence, StructureParams};
-use serde_json::Value;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -108,20 +107,10 @@ fn find_structure(
     let params: StructureParams = settings.section(names::ROOM_STRUCTURE)?;
     let Some(layer) = kept else {
         let mut analysis = foliar_structure::analyze(base, &roles, &params)?;
-        let record = &mut analysis.layer.record;
-        record.given = record::given(settings, names::ROOM_STRUCTURE);
-        record.resolved = as_object(&params);
-        record.resolved.insert("roles".into(), as_object(&roles).into());
+        analysis.layer.record.given = record::given(settings, names::ROOM_STRUCTURE);
         return Ok(analysis);
     };
     let structure = foliar_structure::from_layer(&layer, base)?;
     let parts = if explain { foliar_structure::analyze(base, &roles, &params)?.parts } else { Vec::new() };
     Ok(foliar_structure::Analysis { structure, layer, parts, findings: Vec::new() })
-}
-
-fn as_object(value: &impl serde::Serialize) -> serde_json::Map<String, Value> {
-    match serde_json::to_value(value) {
-        Ok(Value::Object(object)) => object,
-        _ => serde_json::Map::new(),
-    }
 }

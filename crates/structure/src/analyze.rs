@@ -39,6 +39,7 @@ pub fn analyze(base: &Base, roles: &Roles, params: &StructureParams) -> Result<A
     let lying = lying::lying_axis(&geometry, &decided);
     let found = leaves::find(&geometry, &shapes, decided, params)?;
     let mut findings = findings::role_findings(&parts, params.min_confidence);
+    findings.extend(findings::pattern_findings(&patterns, base));
     findings.extend(findings::geometry_findings(&geometry, found.zero_area, lying));
     let mut layer = to_layer(&found.structure, base);
     layer.record.resolved = resolved(roles, params, found.crown_spacing);

@@ -1,10 +1,15 @@
 //! What a person should know of roles and leaves.
 
 use crate::PartEvidence;
+use crate::evidence::{Evidence, Source};
 use crate::geometry::Geometry;
-use crate::patterns::pattern_for;
+use crate::patterns::{Patterns, names, pattern_for};
+use foliar_plant::Base;
 use foliar_schema::{Finding, Role, code};
 use std::collections::BTreeMap;
+
+/// Names of parts that a message lists at most.
+const SHOWN_NAMES: usize = 12;
 
 /// Findings about roles: mixed parts, unsure parts with the lines to paste, no leaf at all.
 pub(crate) fn role_findings(parts: &[PartEvidence], min_confidence: f64) -> Vec<Finding> {
@@ -21,7 +26,18 @@ pub(crate) fn role_findings(parts: &[PartEvidence], min_confidence: f64) -> Vec<
         );
         findings.push(Finding::new(&code::ROLE_MIXED, message).at(place(part)));
     }
-    let unsure: Vec<&PartEvidence> = parts.iter().filter(|p| !p.mixed && p.confidence < min_confidence).collect();
+    for part in parts.iter().filter(|p| patterns_of(p).count() > 1) {
+        let reasons: Vec<String> = patterns_of(part).map(|e| format!("as {}: {}", e.role, e.reason)).collect();
+        let message = format!(
+            "part {:?} is claimed by two roles ({}) and is treated as {}; change one of the patterns so that it leaves this part out",
+            part.name,
+            reasons.join("; "),
+            part.role
+        );
+        findings.push(Finding::new(&code::ROLE_UNSURE, message).at(place(part)));
+    }
+    let is_guess = |p: &&PartEvidence| !p.mixed && p.confidence < min_confidence && patterns_of(p).count() < 2;
+    let unsure: Vec<&PartEvidence> = parts.iter().filter(is_guess).collect();
     if let Some(first) = unsure.first() {
         findings.push(Finding::new(&code::ROLE_UNSURE, unsure_message(&unsure)).at(place(first)));
     }
@@ -30,6 +46,26 @@ pub(crate) fn role_findings(parts: &[PartEvidence], min_confidence: f64) -> Vec<
         findings.push(Finding::new(&code::LEAF_NONE, message));
     }
     findings
+}
+
+/// What patterns say of a part: one piece of evidence per role.
+fn patterns_of(part: &PartEvidence) -> impl Iterator<Item = &Evidence> {
+    part.evidence.iter().filter(|e| e.source == Source::Pattern)
+}
+
+/// Findings about patterns that match nothing: a misspelled name must not pass in silence.
+pub(crate) fn pattern_findings(patterns: &Patterns, base: &Base) -> Vec<Finding> {
+    let mut known: Vec<String> = base.parts.iter().flat_map(names).map(|name| format!("{name:?}")).collect();
+    known.sort();
+    known.dedup();
+    let more = known.len().saturating_sub(SHOWN_NAMES);
+    known.truncate(SHOWN_NAMES);
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+    let finding = |(role, pattern): (Role, &str)| {
+        let message = format!("roles.{role} = {pattern:?} matches no part; there are {}{more}", known.join(", "));
+        Finding::new(&code::ROLE_UNMATCHED, message)
+    };
+    patterns.unmatched(&base.parts).map(finding).collect()
 }
 
 /// One message for all unsure parts, since a file can hold the table [roles] only once.

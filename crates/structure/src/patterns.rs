@@ -27,6 +27,14 @@ impl Patterns {
         Ok(Patterns(patterns))
     }
 
+    /// Patterns that match none of these parts, with their role.
+    pub fn unmatched<'a>(&'a self, parts: &'a [Part]) -> impl Iterator<Item = (Role, &'a str)> {
+        let is_used = |glob: &GlobMatcher| {
+            parts.iter().any(|part| names(part).iter().any(|name| glob.is_match(name.to_lowercase())))
+        };
+        self.0.iter().filter(move |(_, _, glob)| !is_used(glob)).map(|(role, pattern, _)| (*role, pattern.as_str()))
+    }
+
     /// Roles that a part's names match, with pattern and name. A part without any name matches as "".
     pub fn matches<'a>(&'a self, part: &'a Part) -> impl Iterator<Item = (Role, &'a str, &'a str)> {
         let names = names(part);

@@ -72,8 +72,23 @@ fn contradicting_patterns_are_unsure() {
     let roles = Roles { wood: vec!["leaf".into()], leaf: vec!["bark".into()], ..Roles::default() };
     let both = Roles { wood: vec!["*".into()], leaf: vec!["*".into()], ..Roles::default() };
     assert!(!codes(&find_with(&base, &roles)).contains(&"ROLE-UNSURE"));
-    let names = Base { parts: nameless().parts, ..base };
+    let names = Base { parts: nameless().parts, ..base.clone() };
     assert!(codes(&find_with(&names, &both)).contains(&"ROLE-UNSURE"));
+    let two = Roles { wood: vec!["le*".into()], leaf: vec!["*af".into()], ..Roles::default() };
+    let analysis = find_with(&base, &two);
+    let finding = analysis.findings.iter().find(|f| f.code == "ROLE-UNSURE").unwrap();
+    assert!(finding.message.contains("\"le*\"") && finding.message.contains("\"*af\""), "{}", finding.message);
+    assert!(!finding.message.contains("[roles]\n"), "no lines to paste: {}", finding.message);
+}
+
+#[test]
+fn a_pattern_that_matches_no_part_is_a_finding_with_the_names_that_there_are() {
+    let base = Recipe::small().grow().base().clone();
+    let roles = Roles { leaf: vec!["leaf".into(), "leafs".into()], ..Roles::default() };
+    let analysis = find_with(&base, &roles);
+    let found: Vec<&str> = analysis.findings.iter().map(|f| f.message.as_str()).collect();
+    assert_eq!(codes(&analysis), ["ROLE-UNMATCHED"], "{found:?}");
+    assert!(found[0].contains("roles.leaf = \"leafs\"") && found[0].contains("\"bark\""), "{found:?}");
 }
 
 #[test]
