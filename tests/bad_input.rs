@@ -17,7 +17,7 @@ fn refused(name: &str, bytes: &[u8], status: i32, said: &[&str]) {
 #[test]
 fn obj_files() {
     refused("empty.obj", b"", 3, &["empty"]);
-    refused("binary.obj", &[0u8, 159, 146, 150, 0, 1, 2, 3, 255, 254, 0, 0], 3, &[]);
+    refused("binary.obj", &[0u8, 159, 146, 150, 0, 1, 2, 3, 255, 254, 0, 0], 3, &["byte 0", "zero byte", "format OBJ"]);
     refused("truncated.obj", b"v 0 0 0\nv 1 0 0\nv 0 1\n", 3, &["line 3"]);
     refused("nan.obj", b"v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", 3, &["line 2", "nan"]);
     refused("huge.obj", b"v 0 0 0\nv 1 1e30 0\nv 0 1 0\nf 1 2 3\n", 3, &["1e30"]);
@@ -78,8 +78,8 @@ fn gltf_content() {
     for (name, uri, said) in [
         ("outside.glb", "../secret.bin", "--search"),
         ("absolute.glb", "/etc/passwd", "/etc/passwd"),
-        ("network.glb", "https://example.invalid/a.bin", "https"),
-        ("file.glb", "file:///etc/passwd", "file:"),
+        ("network.glb", "https://example.invalid/a.bin", "save the file beside the asset"),
+        ("file.glb", "file:///etc/passwd", "save the file beside the asset"),
     ] {
         let with_uri = |j: &mut Value| {
             j["buffers"] = json!([{"byteLength": 36}, {"byteLength": 4, "uri": uri}]);

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
@@ -70,12 +71,24 @@ pub fn folder() -> tempfile::TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// Where a test leaves a glTF, so that `cargo xtask test` can validate it. Names are used once.
-pub fn output(name: &str) -> PathBuf {
+/// The folder of all outputs.
+fn outputs() -> PathBuf {
     let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/foliar-test-outputs");
     let folder = std::env::var_os("FOLIAR_TEST_OUTPUTS").map_or(target, PathBuf::from);
     std::fs::create_dir_all(&folder).unwrap();
-    let path = folder.canonicalize().unwrap().join(name);
+    folder
+}
+
+/// Says why a test was skipped, also to `cargo xtask test`: what a passing test prints, nobody sees.
+pub fn skip(why: &str) {
+    eprintln!("skipped: {why}");
+    let mut list = std::fs::File::options().create(true).append(true).open(outputs().join("skipped.txt")).unwrap();
+    list.write_all(format!("{why}\n").as_bytes()).unwrap();
+}
+
+/// Where a test leaves a glTF, so that `cargo xtask test` can validate it. Names are used once.
+pub fn output(name: &str) -> PathBuf {
+    let path = outputs().canonicalize().unwrap().join(name);
     // What an earlier run left would answer "unchanged".
     _ = std::fs::remove_file(&path);
     path
@@ -101,7 +114,7 @@ pub fn shared(name: &str) -> Option<PathBuf> {
     if path.exists() {
         return Some(path);
     }
-    eprintln!("skipped: {} is not there: no shared data", path.display());
+    skip(&format!("{} is not there: no shared data", path.display()));
     None
 }
 

@@ -110,6 +110,7 @@ fn contradictory_flags_are_refused_with_both_named() {
     bake(&["--quiet", "-v"]).expect(2, &["--quiet", "--verbose"]);
     bake(&["--check", "--dry-run"]).expect(2, &["--check", "--dry-run"]);
     bake(&["--config", "x.toml", "--no-config"]).expect(2, &["--config", "--no-config"]);
+    run(FOLIAR, &["bake", "a.obj", "-o", "-", "--check"]).expect(2, &["--check", "-o -", "nothing to compare"]);
     bake(&["-d", "out"]).expect(2, &["--output", "--directory"]);
     bake(&["--set", "import.unit=cm", "--set", "import.height_m=3"])
         .expect(2, &["import.unit", "import.height_m", "contradict"]);
@@ -122,4 +123,24 @@ fn a_stronger_source_rules_out_its_rival() {
     let run = run_in(here.path(), FOLIAR, &["config", "--unit", "cm", "--format", "json"]).expect(0, &[]);
     let all: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!((&all["import.unit"]["value"], &all["import.height_m"]["value"]), (&"cm".into(), &Value::Null));
+}
+
+#[test]
+fn one_pattern_for_two_roles_is_refused_with_both_named() {
+    let here = folder();
+    tree(here.path(), 20);
+    run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "tree.glb", "--leaf", "Leaves", "--wood", "leaves"])
+        .expect(2, &["\"leaves\"", "roles.leaf (flag --leaf)", "roles.wood (flag --wood)", "take it out of one"]);
+    assert!(!here.path().join("tree.glb").exists());
+    run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "tree.glb", "--leaf", "leav*", "--wood", "*aves"])
+        .expect(0, &["ROLE-UNSURE", "\"leav*\"", "\"*aves\"", "change one of the patterns"]);
+}
+
+#[test]
+fn axis_and_unit_of_a_gltf_are_said_to_be_ignored() {
+    let here = folder();
+    tree(here.path(), 20);
+    run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "tree.glb"]).expect(0, &[]);
+    run_in(here.path(), FOLIAR, &["bake", "tree.glb", "-o", "again.glb", "--up", "z", "--unit", "cm"])
+        .expect(0, &["warning[IMPORT-IGNORED]", "flag --up is ignored", "flag --unit is ignored"]);
 }

@@ -158,6 +158,8 @@ fn law_9_an_equal_output_is_left_untouched() {
     assert!(modified() > long_ago);
 }
 
+/// A smoke test: the write is a small share of the run, so a kill seldom hits it. The proof, a stop at
+/// each step of the write, stands in the carrier's tests/writing.rs.
 #[test]
 fn law_9_killed_at_any_moment_the_output_is_the_old_or_the_new() {
     let here = folder();

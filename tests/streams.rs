@@ -1,6 +1,6 @@
 //! Standard input and output, closed pipes, full disks, places that cannot be written.
 
-use crate::common::{FOLIAR, command, finish, folder, output, run, run_in, text, tree, tree_text};
+use crate::common::{FOLIAR, command, finish, folder, output, run, run_in, skip, text, tree, tree_text};
 use std::fs::File;
 use std::io::Write;
 use std::process::Stdio;
@@ -43,7 +43,9 @@ fn quiet_says_nothing_but_errors() {
     let (here, out) = (folder(), output("streams-quiet.glb"));
     let input = tree(here.path(), 40);
     let quiet = run(FOLIAR, &["bake", text(&input), "-o", text(&out), "--quiet"]).expect(0, &[]);
-    assert_eq!(quiet.stderr, "");
+    assert_eq!((quiet.stdout.as_str(), quiet.stderr.as_str()), ("", ""));
+    let json = run(FOLIAR, &["bake", text(&input), "-o", text(&out), "--quiet", "--format", "json"]).expect(0, &[]);
+    assert_eq!(json.json_lines().len(), 1, "what was asked for in JSON is no chatter");
     run(FOLIAR, &["bake", "no.obj", "-o", text(&out), "--quiet"]).expect(3, &["error: no.obj: cannot be read"]);
 }
 
@@ -64,7 +66,7 @@ fn an_output_that_cannot_be_written_is_status_4() {
 #[test]
 fn a_full_device_is_status_4() {
     let Ok(full) = File::options().write(true).open("/dev/full") else {
-        eprintln!("skipped: no /dev/full here");
+        skip("no /dev/full here");
         return;
     };
     let here = folder();
@@ -83,7 +85,7 @@ fn a_full_disk_leaves_the_old_output() {
         .stderr(Stdio::null())
         .status();
     if !mount.is_ok_and(|status| status.success()) {
-        eprintln!("skipped: a small tmpfs cannot be mounted here");
+        skip("a small tmpfs cannot be mounted here");
         return;
     }
     let out = disk.join("tree.glb");

@@ -48,8 +48,12 @@ fn view(array: &Array) -> Result<TensorView<'_>, safetensors::SafeTensorError> {
 /// Reads a layer back.
 pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError> {
     let fail = |place: &str, problem: String| CarrierError::input(file, place, problem, BAKE_AGAIN);
-    let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(|e| fail("", format!("no layer: {e}")))?;
-    let tensors = SafeTensors::deserialize(bytes).map_err(|e| fail("", format!("no layer: {e}")))?;
+    let no_layer = |e: safetensors::SafeTensorError| {
+        let problem = format!("is no layer file (safetensors): {e}");
+        CarrierError::input(file, "", problem, "name a .layer file that foliar wrote")
+    };
+    let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(no_layer)?;
+    let tensors = SafeTensors::deserialize(bytes).map_err(no_layer)?;
     let header = metadata.metadata().as_ref().and_then(|m| m.get(names::LAYER_METADATA_KEY));
     let header = header.ok_or_else(|| fail("__metadata__", format!("no key {:?}", names::LAYER_METADATA_KEY)))?;
     let header: Header = serde_json::from_str(header).map_err(|e| fail("__metadata__/foliar", e.to_string()))?;

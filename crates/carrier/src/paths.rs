@@ -31,7 +31,8 @@ pub(crate) fn resolve_at(
         CarrierError::input(file, place, format!("{uri:?} {why}"), remedy)
     };
     if let Some(scheme) = scheme(uri) {
-        return Err(refuse(&format!("is a {scheme}: URI, and foliar reads local files only")));
+        let problem = format!("{uri:?} is a {scheme}: URI, and foliar reads files by relative paths only");
+        return Err(CarrierError::input(file, place, problem, "save the file beside the asset and name it relatively"));
     }
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let searched: Vec<&Path> = search.iter().map(Path::new).collect();
@@ -186,7 +187,8 @@ mod tests {
             "https://example.org/oak.png",
         ] {
             let error = resolve(uri, &asset, &[], "t.mtl").unwrap_err().to_string();
-            assert!(error.contains("t.mtl") && error.contains("--search") && !error.contains("link"), "{uri}: {error}");
+            let remedy = if uri.contains("://") { "save the file beside the asset" } else { "--search" };
+            assert!(error.contains("t.mtl") && error.contains(remedy) && !error.contains("link"), "{uri}: {error}");
             assert!(error.contains(&format!("{uri:?}")), "{error}");
         }
         drop((root, elsewhere));

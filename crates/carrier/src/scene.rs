@@ -139,7 +139,11 @@ fn named(source: Source, visits: &[Visit], name: &str) -> Result<usize, CarrierE
         [] => {
             let names: Vec<&str> = all.filter_map(name_of).take(20).collect();
             let problem = format!("no node of the scene is named {name:?}");
-            Err(CarrierError::input(source.file, "/nodes", problem, format!("there are {}", names.join(", "))))
+            let remedy = match names.as_slice() {
+                [] => "its nodes have no names: name one in the modeller, or leave --node out".into(),
+                _ => format!("there are {}", names.join(", ")),
+            };
+            Err(CarrierError::input(source.file, "/nodes", problem, remedy))
         }
         several => {
             let places: Vec<String> = several.iter().map(|n| format!("/nodes/{n}")).collect();

@@ -49,6 +49,14 @@ impl Console {
         self.data(format!("{text}\n").as_bytes())
     }
 
+    /// What became of the work, for people: on standard output, unless quiet.
+    ///
+    /// # Errors
+    /// As [`Console::result`].
+    pub fn outcome(&self, text: &str) -> Result<(), Failure> {
+        if self.verbosity == Verbosity::Quiet { Ok(()) } else { self.result(text) }
+    }
+
     /// Raw bytes on standard output.
     ///
     /// # Errors

@@ -1,13 +1,13 @@
 //! From a path to a plant: import and structure.
 
-use crate::config::Settings;
+use crate::config::{Given, Settings};
 use crate::gather::Sources;
 use crate::options::{Options, is_dash};
 use crate::{Failure, record};
 use foliar_bake::Layer;
 use foliar_carrier::{Asset, Document, SourceKind};
 use foliar_plant::{Base, Plant};
-use foliar_schema::{Finding, Import, names};
+use foliar_schema::{Finding, Import, Severity, code, names};
 use foliar_structure::{PartEvidence, StructureParams};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -50,6 +50,7 @@ pub fn load(sources: &Sources, options: &Options, input: &Path) -> Result<Loaded
     let settings = sources.gather(options, input, given_before)?;
     let Asset { document, base, base_hash, layers, findings: import_findings, mut files, source } = asset;
     findings.splice(0..0, import_findings);
+    findings.extend(ignored_for_gltf(&sources.flags, source, input));
     files.extend(settings.files.iter().cloned());
     let is_master = !layers.is_empty();
     let (own, layers): (Vec<Layer>, Vec<Layer>) =
@@ -71,6 +72,17 @@ pub fn load(sources: &Sources, options: &Options, input: &Path) -> Result<Loaded
         files,
         source,
     })
+}
+
+/// What flags say of axis and unit of a glTF, which says both itself.
+fn ignored_for_gltf(flags: &Settings, source: SourceKind, input: &Path) -> Vec<Finding> {
+    let given = ["import.up", "import.unit", "import.height_m"].into_iter().filter_map(|name| flags.get(name));
+    let finding = |given: &Given| {
+        let text = format!("a glTF is Y up in meters: {} is ignored; turn or scale it in the modeller", given.origin);
+        let finding = Finding::new(&code::IMPORT_IGNORED, text).in_file(input.display().to_string());
+        Finding { severity: Severity::Warning, ..finding }
+    };
+    if source == SourceKind::Obj { Vec::new() } else { given.map(finding).collect() }
 }
 
 /// Reads a file, or standard input where its name is `-`.

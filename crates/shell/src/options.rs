@@ -117,6 +117,18 @@ impl Options {
         }
     }
 
+    /// Refuses flags that contradict each other by their values.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for `-o -` with `--check`.
+    pub fn refuse_contradictions(&self) -> Result<(), Failure> {
+        if self.mode == Mode::Check && self.output.as_deref().is_some_and(is_dash) {
+            let text = "--check with -o -: standard output holds nothing to compare with: name the file with -o FILE";
+            return Err(Failure::usage(text));
+        }
+        Ok(())
+    }
+
     /// Starts as many threads as were asked for.
     ///
     /// # Errors

@@ -56,7 +56,8 @@ impl Report {
 
     /// Takes findings; those that name no file are about the asset.
     pub fn find(&mut self, findings: impl IntoIterator<Item = Finding>) {
-        let asset = self.json.get("asset").and_then(Value::as_str).map(String::from);
+        let asset = self.json.get("asset").and_then(Value::as_str);
+        let asset = asset.map(|name| if name == "-" { "standard input" } else { name }.to_owned());
         self.findings.extend(findings.into_iter().map(|mut finding| {
             finding.file = finding.file.or_else(|| asset.clone());
             finding

@@ -50,15 +50,23 @@ pub(crate) fn findings(file: &ObjFile, import: &Import) -> Vec<Finding> {
     let height = height(file, Frame { up: import.up.unwrap_or(Up::Y), scale: 1.0 });
     let mut findings = Vec::new();
     if import.up.is_none() {
-        let message = format!("no up axis was given: Y is taken for up, height {height:.3} units; --up z otherwise");
+        let message =
+            format!("no up axis was given: Y is taken for up, height {} units; --up z otherwise", digits(height));
         findings.push(Finding::new(&code::IMPORT_UP, message));
     }
     if import.unit.is_none() && import.height_m.is_none() {
-        let message =
-            format!("no unit was given: 1 unit is taken for 1 m, height {height:.3} m; say --unit or --height-m");
+        let message = format!(
+            "no unit was given: 1 unit is taken for 1 m, height {} m; say --unit or --height-m",
+            digits(height)
+        );
         findings.push(Finding::new(&code::IMPORT_UNIT, message));
     }
     findings
+}
+
+/// Four digits that mean something, however tall or small the plant is.
+fn digits(height: f64) -> String {
+    if height == 0.0 || (0.01..1e6).contains(&height) { format!("{height:.3}") } else { format!("{height:.3e}") }
 }
 
 fn height(file: &ObjFile, frame: Frame) -> f64 {

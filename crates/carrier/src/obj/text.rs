@@ -30,7 +30,12 @@ pub(crate) fn prepare<'a>(bytes: &'a [u8], file: &str, what: &str) -> Result<Tex
     }
     if let Some(at) = memchr::memchr(0, head) {
         let problem = "holds a zero byte, so it is no text";
-        return Err(CarrierError::input(file, format!("byte {at}"), problem, format!("name a {what} file")));
+        return Err(CarrierError::input(
+            file,
+            format!("byte {at}"),
+            problem,
+            format!("name a text file of format {what}"),
+        ));
     }
     // Files of the old Mac end their lines with \r alone.
     let old_mac = memchr::memchr(b'\n', body).is_none() && memchr::memchr(b'\r', body).is_some();

@@ -100,7 +100,8 @@ fn a_library_outside_the_folder_is_refused_with_line_and_flag() {
         let text = format!("# a comment\nmtllib {name}\n{FACE}");
         let error = convert(text.as_bytes(), "tree.obj", Path::new("/nowhere"), &Import::default()).unwrap_err();
         let message = error.to_string();
-        assert!(message.starts_with("tree.obj, line 2: ") && message.contains("--search"), "{message}");
+        let remedy = if name.contains("://") { "save the file beside the asset" } else { "--search" };
+        assert!(message.starts_with("tree.obj, line 2: ") && message.contains(remedy), "{message}");
         assert!(matches!(error, CarrierError::Input { .. }) && !error.is_output());
     }
 }

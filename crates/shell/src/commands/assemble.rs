@@ -50,6 +50,7 @@ pub fn read_layer(file: &Path) -> Result<Layer, Failure> {
 /// [`Failure::Output`]; [`Failure::Found`] where `--check` would change it.
 pub fn write(options: &Options, console: &Console, document: &Document) -> Result<(), Failure> {
     let Some(output) = &options.output else { return Err(Failure::usage("where to? say -o OUT")) };
+    options.refuse_contradictions()?;
     outputs::check_ending(output, false)?;
     write_files(options, console, output, &outputs::encode(document, output)?)
 }

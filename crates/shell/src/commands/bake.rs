@@ -42,6 +42,7 @@ pub fn bake(
     let console = options.console();
     let jobs = if again { in_place(options)? } else { outputs::jobs(options)? };
     check_outputs(options, &jobs)?;
+    options.refuse_contradictions()?;
     options.start_threads()?;
     let sources = Sources::new(call, direct)?;
     let baking = Baking { bakers: call.bakers, only, sources: &sources, options, console: &console, again };
@@ -106,8 +107,11 @@ fn tell(baking: &Baking, report: &Map<String, Value>, several: bool) -> Result<(
     if !matches!(baking.options.format, Format::Human | Format::Json) {
         return Ok(());
     }
-    if several || baking.options.format == Format::Json {
+    if baking.options.format == Format::Json {
         return baking.console.result(&Value::from(line(report, baking.options)).to_string());
+    }
+    if several {
+        return baking.console.outcome(&Value::from(line(report, baking.options)).to_string());
     }
     let text = |name: &str| report.get(name).and_then(Value::as_str).unwrap_or_default().to_owned();
     match text("status").as_str() {
@@ -118,7 +122,7 @@ fn tell(baking: &Baking, report: &Map<String, Value>, several: bool) -> Result<(
             let names: Vec<&str> = rooms.iter().filter_map(|room| room["room"].as_str()).collect();
             let baked = if names.is_empty() { "no room".to_owned() } else { names.join(", ") };
             let seconds = report.get("seconds").and_then(Value::as_f64).unwrap_or(0.0);
-            baking.console.result(&format!("{}: {status} ({leaves} leaves; {baked}; {seconds:.2} s)", text("output")))
+            baking.console.outcome(&format!("{}: {status} ({leaves} leaves; {baked}; {seconds:.2} s)", text("output")))
         }
     }
 }
@@ -193,6 +197,6 @@ pub fn tell_written(
     let name = output.display().to_string();
     match options.format {
         Format::Json => console.result(&json!({"output": name, "status": status.word()}).to_string()),
-        _ => console.result(&format!("{name}: {}", status.word())),
+        _ => console.outcome(&format!("{name}: {}", status.word())),
     }
 }

@@ -4,6 +4,7 @@
 use super::{Fields, Origin, Settings, from_json};
 use crate::Failure;
 use serde_json::Value;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::de::{DeArray, DeTable, DeValue};
@@ -29,7 +30,10 @@ pub fn asset_file(input: &Path) -> Option<PathBuf> {
 /// # Errors
 /// [`Failure::Usage`] with file and line: no TOML, an unknown key, a bad value.
 pub fn from_file(fields: &Fields, path: &Path) -> Result<Settings, Failure> {
-    let unreadable = |e| Failure::usage(format!("{}: cannot be read: {e}: name a TOML file", path.display()));
+    let unreadable = |e: std::io::Error| {
+        let remedy = if e.kind() == ErrorKind::InvalidData { "save it as UTF-8" } else { "name a TOML file" };
+        Failure::usage(format!("{}: cannot be read: {e}: {remedy}", path.display()))
+    };
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
     let mut settings = from_toml(fields, path, &text)?;
     settings.files.push(path.to_path_buf());
