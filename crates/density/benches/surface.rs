@@ -17,8 +17,8 @@ const THRESHOLD: f64 = 0.1;
 fn crown(leaves: u64) -> Vec<Generator> {
     let leaf = |index: u64| {
         let (bough, rank) = (index % TWIGS, index / TWIGS);
-        let out = 3.2 * radical_inverse(bough, 2).powf(0.4);
-        let arm = radical_inverse(rank + 1, 3).cbrt() * (0.5 + 0.5 * r2_point(index).x);
+        let out = 3.2 * libm::pow(radical_inverse(bough, 2), 0.4);
+        let arm = libm::cbrt(radical_inverse(rank + 1, 3)) * (0.5 + 0.5 * r2_point(index).x);
         let position = fibonacci_sphere(bough as usize, TWIGS as usize) * out
             + fibonacci_sphere(index as usize * 7919 % 100_003, 100_003) * arm;
         Generator { position, weight: (0.5 + r2_point(index).y) as f32, group: index as u32 }

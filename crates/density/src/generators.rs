@@ -84,7 +84,7 @@ impl Foliage {
 
     fn add(&mut self, plant: &Plant, kind: GeneratorKind, neighbor: Option<(&Placed, DVec3)>) {
         let extents = if neighbor.is_some() { extents(plant) } else { std::mem::take(&mut self.extents) };
-        let scale = neighbor.map_or(1.0, |(n, _)| n.transform.matrix3.determinant().abs().cbrt());
+        let scale = neighbor.map_or(1.0, |(n, _)| libm::cbrt(n.transform.matrix3.determinant().abs()));
         let is_large = |leaf: usize| EDGE_PER_EXTENT * extents[leaf] * scale > self.radius;
         let spread = Spread::new(plant, &is_large, self.radius / scale);
         for (id, leaf) in plant.leaves().iter().enumerate() {
@@ -157,6 +157,6 @@ fn automatic_radius(plant: &Plant, extents: &[f64]) -> f64 {
     let mut sizes = extents.to_vec();
     sizes.sort_unstable_by(f64::total_cmp);
     let leaf_size = EDGE_PER_EXTENT * crate::fast::median(&sizes);
-    let spacing = (RADIUS_PER_SPACING / effective.cbrt()).min(1.0);
+    let spacing = (RADIUS_PER_SPACING / libm::cbrt(effective)).min(1.0);
     (gyration * RADIUS_PER_GYRATION.max(spacing)).max(leaf_size.min(gyration * MOST_FOR_LEAF_SIZE))
 }

@@ -76,7 +76,7 @@ fn attractors(recipe: &Recipe) -> Vec<DVec3> {
         let (x, z) = (2.0 * x - 1.0, 2.0 * z - 1.0);
         let bearing = libm::atan2(z, x);
         let lobes = 1.0 + 0.10 * libm::sin(3.0 * bearing + 7.0 * y + recipe.seed as f64);
-        let share = x.hypot(z) / (profile(y) * lobes).max(1e-9);
+        let share = libm::hypot(x, z) / (profile(y) * lobes).max(1e-9);
         // Light is taken at the rim: the inside of a crown is thin.
         if share < 1.0 && unit(recipe.seed, index) < 0.25 + 0.75 * share * share {
             points.push(DVec3::new(x * radius, base + y * (recipe.height_m - base), z * radius));
@@ -190,7 +190,7 @@ const LEADER: f64 = 0.45;
 
 /// How far a way is for a branch: boughs rise, so the shortest way climbs by half of what it goes aside.
 fn climb(way: DVec3) -> f64 {
-    let aside = way.x.hypot(way.z);
+    let aside = libm::hypot(way.x, way.z);
     aside * aside + (way.y - 0.5 * aside).powi(2)
 }
 

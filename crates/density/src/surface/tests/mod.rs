@@ -60,7 +60,7 @@ fn winding(surface: &Surface, place: DVec3) -> f64 {
         let [a, b, c] = t.map(arm);
         let [la, lb, lc] = [a.length(), b.length(), c.length()];
         let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-        2.0 * a.dot(b.cross(c)).atan2(below)
+        2.0 * libm::atan2(a.dot(b.cross(c)), below)
     };
     surface.triangles.iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
