@@ -84,8 +84,9 @@ impl Baker for Density {
         };
         vec![
             rung("k_a", json!({"ambient": "luft", "channels": "ambient"}), EXACT_STEPS),
-            rung("sky-12", json!({"ambient": "sky", "quality": 12.0}), 12.0),
-            rung("sky-3", json!({"ambient": "sky", "quality": 3.0}), 3.0),
+            rung("sky-4", json!({"ambient": "sky", "quality": 4.0}), 4.0),
+            rung("sky", json!({}), 1.0),
+            rung("sky-0.25", json!({"quality": 0.25}), 0.25),
         ]
     }
 

@@ -43,7 +43,7 @@ pub(crate) fn baked(plant: &Plant, foliage: &Foliage, places: &Places, values: &
 }
 
 fn resolved(params: &Params, radius: Option<f64>) -> Map<String, Value> {
-    let params = Params { radius_m: radius, ..params.clone() };
+    let params = Params { radius_m: radius, quality: Some(params.quality()), ..params.clone() };
     match json!(params) {
         Value::Object(map) => map,
         _ => Map::new(),

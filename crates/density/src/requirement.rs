@@ -1,6 +1,6 @@
 //! Whether a scene needs this room, and which of its channels.
 
-use crate::params::Channels;
+use crate::params::{AmbientTerm, Channels};
 use foliar_bake::{Facts, Requirement};
 use foliar_schema::{Ambient, Budget, Scene, Sky};
 use serde_json::{Map, Value, json};
@@ -16,9 +16,11 @@ pub fn require(scene: &Scene, facts: &Facts) -> Requirement {
     let (ambient, why_ambient) = match light.ambient {
         Ambient::None => (false, "ambient = none".to_string()),
         Ambient::Traced => (false, "ambient = traced asks for another room's term".to_string()),
-        Ambient::Density => (true, "ambient = density asks for k_a".to_string()),
+        Ambient::Density => {
+            (true, format!("ambient = density asks for this room's term, {} unless said otherwise", term()))
+        }
         Ambient::Auto if light.sky == Sky::None => (false, "sky = none leaves nothing to attenuate".to_string()),
-        Ambient::Auto => (true, "ambient = auto takes k_a, the cheapest term there is".to_string()),
+        Ambient::Auto => (true, format!("ambient = auto takes the cheapest term there is, here {}", term())),
     };
     let normals = light.soft_normals;
     let why_normals = format!("soft_normals = {normals}");
@@ -31,6 +33,14 @@ pub fn require(scene: &Scene, facts: &Facts) -> Requirement {
         facts.leaf_vertices, facts.wood_vertices
     );
     Requirement::Required { params: implied(scene, ambient, normals), because, bytes }
+}
+
+/// The ambient term of the defaults, in words.
+fn term() -> &'static str {
+    match AmbientTerm::default() {
+        AmbientTerm::Luft => "k_a of the local density",
+        AmbientTerm::Sky => "transmittance to the sky",
+    }
 }
 
 /// What the layer's arrays add to a file: nothing for a plant without leaves.
@@ -52,7 +62,7 @@ fn implied(scene: &Scene, ambient: bool, normals: bool) -> Map<String, Value> {
     if channels != Channels::default() {
         params.insert("channels".into(), json!(channels));
     }
-    if scene.budget != Budget::default() {
+    if scene.budget.quality.total_cmp(&Budget::default().quality).is_ne() {
         params.insert("quality".into(), json!(scene.budget.quality));
     }
     params

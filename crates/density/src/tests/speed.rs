@@ -74,7 +74,7 @@ fn sky_error() {
         let all: Vec<Query> =
             foliage.own().iter().map(|ball| Query { position: ball.position, skip: ball.group }).collect();
         println!("{name}: radius {} of {}, {} balls", foliage.radius, plant.size(), all.len());
-        for points in [2.0, 3.0, 4.0, 6.0] {
+        for points in [2.0, 3.0, 4.0, 5.0, 6.0] {
             let sky = Sky::new(&foliage, points);
             let fast = sky.samples(&all);
             let (mut angles, mut terms) = (Vec::new(), Vec::new());
