@@ -107,13 +107,15 @@ pub fn own_room(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
 /// [`Breach`].
 pub fn repeatable(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
     let breach = breaches(REPEATABLE, baker, sample);
-    let first = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
-    for threads in THREADS {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|error| breach(format!("no pool of {threads} threads: {error}")))?;
-        let again = pool.install(|| layer(baker, &sample.plant, &Map::new())).map_err(&breach)?;
-        if again.content_hash() != first.content_hash() || again.record != first.record {
-            return Err(breach(format!("{threads} threads give another layer")));
+    for (rung, params) in settings(baker) {
+        let first = layer(baker, &sample.plant, &params).map_err(&breach)?;
+        for threads in THREADS {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let pool = pool.map_err(|error| breach(format!("no pool of {threads} threads: {error}")))?;
+            let again = pool.install(|| layer(baker, &sample.plant, &params)).map_err(&breach)?;
+            if again.content_hash() != first.content_hash() || again.record != first.record {
+                return Err(breach(format!("{rung}: {threads} threads give another layer")));
+            }
         }
     }
     Ok(())
@@ -157,12 +159,20 @@ pub fn meets_reference(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach>
 /// [`Breach`].
 pub fn in_range(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
     let breach = breaches(IN_RANGE, baker, sample);
-    // `run` itself refuses attributes and columns out of range.
-    let layer = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
-    match layer.record.facts.iter().find(|(_, value)| value.is_null()) {
-        Some((name, _)) => Err(breach(format!("fact {name} is no finite number"))),
-        None => Ok(()),
+    for (rung, params) in settings(baker) {
+        // `run` itself refuses attributes and columns out of range.
+        let layer = layer(baker, &sample.plant, &params).map_err(&breach)?;
+        if let Some((name, _)) = layer.record.facts.iter().find(|(_, value)| value.is_null()) {
+            return Err(breach(format!("{rung}: fact {name} is no finite number")));
+        }
     }
+    Ok(())
+}
+
+/// The defaults and every rung of the ladder, by name.
+fn settings(baker: &dyn Baker) -> Vec<(&'static str, Map<String, Value>)> {
+    let rungs = baker.ladder().into_iter().map(|rung| (rung.name, rung.params));
+    std::iter::once(("defaults", Map::new())).chain(rungs).collect()
 }
 
 /// Law 7: no parameters, and every default said aloud, mean the same.
@@ -172,7 +182,13 @@ pub fn in_range(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
 pub fn defaults_agree(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
     let breach = breaches(DEFAULTS_AGREE, baker, sample);
     let silent = layer(baker, &sample.plant, &Map::new()).map_err(&breach)?;
-    let defaults = crate::resolve_params(baker, &Map::new(), &Map::new()).map_err(|e| breach(e.to_string()))?;
+    // From the schema itself: what resolves parameters is under test here.
+    let schema = baker.schema();
+    let properties = schema["properties"].as_object().into_iter().flatten();
+    let defaults: Map<String, Value> = properties
+        .map(|(name, property)| (name.clone(), property["default"].clone()))
+        .filter(|(_, value)| !value.is_null())
+        .collect();
     let aloud = layer(baker, &sample.plant, &defaults).map_err(&breach)?;
     if silent.content_hash() != aloud.content_hash() || silent.record.resolved != aloud.record.resolved {
         return Err(breach("defaults said aloud give another layer".into()));
