@@ -50,7 +50,7 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
     let fail = |place: &str, problem: String| CarrierError::input(file, place, problem, BAKE_AGAIN);
     let no_layer = |e: safetensors::SafeTensorError| {
         let problem = format!("is no layer file (safetensors): {e}");
-        CarrierError::input(file, "", problem, "name a .layer file that foliar wrote")
+        CarrierError::input(file, "", problem, "name a .layer file that foliar wrote, or bake the layer again")
     };
     let (_, metadata) = SafeTensors::read_metadata(bytes).map_err(no_layer)?;
     let tensors = SafeTensors::deserialize(bytes).map_err(no_layer)?;
