@@ -51,7 +51,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-density' -ScriptBlock {
             [CompletionResult]::new('--ambient', '--ambient', [CompletionResultType]::ParameterName, 'Ambient term: `luft` or `sky`. [default "sky"]')
             [CompletionResult]::new('--generators', '--generators', [CompletionResultType]::ParameterName, 'What one metaball stands for. [default "leaf"]')
             [CompletionResult]::new('--channels', '--channels', [CompletionResultType]::ParameterName, 'Which channels are written. [default "both"]')
-            [CompletionResult]::new('--quality', '--quality', [CompletionResultType]::ParameterName, 'Error of the sky''s normals and ambient term, rms, in visible steps of each channel: 3 cannot be told from exact, 12 is a preview. k_a of Luft07 eq. 4 is exact either way. [above 0, default 3.0]')
+            [CompletionResult]::new('--quality', '--quality', [CompletionResultType]::ParameterName, 'Error of the sky''s normals and ambient term, rms, in visible steps of each channel: 1 cannot be seen, 4 is a preview; nothing said: what the scene asks for. k_a of Luft07 eq. 4 is exact either way. [above 0]')
             [CompletionResult]::new('--blend', '--blend', [CompletionResultType]::ParameterName, 'Share of the original normal in the realigned one (Luft07 section 4). [at least 0, at most 1, default 0.0]')
             [CompletionResult]::new('--unit', '--unit', [CompletionResultType]::ParameterName, 'Unit of length of an OBJ; nothing said means m.')
             [CompletionResult]::new('--set', '--set', [CompletionResultType]::ParameterName, 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all')

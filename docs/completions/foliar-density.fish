@@ -35,7 +35,7 @@ leafcount\t'A leaf, every one with weight 1.'"
 complete -c foliar-density -l channels -d 'Which channels are written. [default "both"]' -r -f -a "both\t'`_AMBIENT` and `_SOFT_NORMAL`.'
 ambient\t'`_AMBIENT` only.'
 normals\t'`_SOFT_NORMAL` only.'"
-complete -c foliar-density -l quality -d 'Error of the sky\'s normals and ambient term, rms, in visible steps of each channel: 3 cannot be told from exact, 12 is a preview. k_a of Luft07 eq. 4 is exact either way. [above 0, default 3.0]' -r
+complete -c foliar-density -l quality -d 'Error of the sky\'s normals and ambient term, rms, in visible steps of each channel: 1 cannot be seen, 4 is a preview; nothing said: what the scene asks for. k_a of Luft07 eq. 4 is exact either way. [above 0]' -r
 complete -c foliar-density -l blend -d 'Share of the original normal in the realigned one (Luft07 section 4). [at least 0, at most 1, default 0.0]' -r
 complete -c foliar-density -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'

@@ -62,7 +62,7 @@ pub fn reference_density(foliage: &Foliage, params: &Params) -> f64 {
     median(&densities).max(1.0)
 }
 
-pub(crate) fn reference_queries(foliage: &Foliage, params: &Params) -> Vec<Query> {
+fn reference_queries(foliage: &Foliage, params: &Params) -> Vec<Query> {
     let skip = |group| if params.self_leaf == SelfLeaf::Exclude { group } else { NO_GROUP };
     foliage.own().iter().map(|ball| Query { position: ball.position, skip: skip(ball.group) }).collect()
 }

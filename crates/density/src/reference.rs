@@ -2,11 +2,11 @@
 //! to 4; the sky by the chords of all balls). Tests and measured errors compare with them.
 
 use crate::directions::{DIRECTIONS, sky_directions};
-use crate::fast::{Places, SkyPlan, Values, luft_ambient, median, realigned, reference_queries, sky_ambients};
+use crate::fast::{Places, SkyPlan, Values, luft_ambient, median, realigned, sky_ambients};
 use crate::field::Query;
-use crate::generators::{Foliage, Generator};
+use crate::generators::{Foliage, Generator, NO_GROUP};
 use crate::medium::{SkySample, chord, extinction, see};
-use crate::params::{AmbientTerm, Channels, Params};
+use crate::params::{AmbientTerm, Channels, Params, SelfLeaf};
 use crate::sky::Sky;
 use foliar_plant::Plant;
 use glam::DVec3;
@@ -53,7 +53,9 @@ pub fn sky(generators: &[Generator], radius: f64, mean_area: f64, query: &Query)
 
 /// Everything that a bake computes, by the functions above.
 pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Values {
-    let queries = reference_queries(foliage, params);
+    let skip = |group| if params.self_leaf == SelfLeaf::Exclude { group } else { NO_GROUP };
+    let query = |ball: &Generator| Query { position: ball.position, skip: skip(ball.group) };
+    let queries: Vec<Query> = foliage.own().iter().map(query).collect();
     let mut own: Vec<f64> = queries.par_iter().map(|q| field(foliage.own(), foliage.radius, q).density).collect();
     own.sort_unstable_by(f64::total_cmp);
     let reference = median(&own).max(1.0);
