@@ -47,7 +47,7 @@ codes! {
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";
     RECORD_UNKNOWN = "RECORD-UNKNOWN", Note, "A record of an unknown room or a newer contract was kept as it is.";
     ROLE_MIXED = "ROLE-MIXED", Warning, "One part holds trunk and crown without a hint: split it in the modeller, or name its role.";
-    ROLE_UNMATCHED = "ROLE-UNMATCHED", Warning, "A pattern of [roles] matches no part: correct it, or take it out.";
+    ROLE_UNMATCHED = "ROLE-UNMATCHED", Warning, "A pattern of section `roles` matches no part: correct it, or take it out.";
     ROLE_UNSURE = "ROLE-UNSURE", Warning, "The role of a part is a guess: paste the printed lines into foliar.toml; or patterns of two roles match it: change one.";
     STALE = "STALE", Warning, "The base has changed since a record was baked: run foliar rebake.";
 }
