@@ -94,7 +94,7 @@ _foliar__view() {
                     return 0
                     ;;
                 --look)
-                    COMPREPLY=($(compgen -W "plain baked" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "plain baked stock" -- "${cur}"))
                     return 0
                     ;;
                 --channel)

@@ -16,7 +16,8 @@ complete -c foliar-view -l width-px -d 'Width of the picture in pixels. [pixels,
 complete -c foliar-view -l height-px -d 'Height of the picture in pixels. [pixels, at least 16, at most 8192, default 720]' -r
 complete -c foliar-view -l samples -d 'Rays per pixel. [at least 1, at most 1024, default 16]' -r
 complete -c foliar-view -l look -d 'How the tree is lit, where no channel is asked for. [default "baked"]' -r -f -a "plain\t'As the file came: its own normals, the same ambient light everywhere.'
-baked\t'With what was baked: realigned normals, ambient coefficient.'"
+baked\t'With what was baked: realigned normals, ambient coefficient.'
+stock\t'As any glTF viewer does without foliar\'s shaders: NORMAL turned by the triangle\'s side, `COLOR_0` as a factor on the color, back faces of one-sided materials left out, no shadows on the tree.'"
 complete -c foliar-view -l channel -d 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.' -r
 complete -c foliar-view -l azimuth-deg -d 'Where the camera stands around the tree, degrees. [degrees, at least -360, at most 360, default 30.0]' -r
 complete -c foliar-view -l elevation-deg -d 'How far the camera stands above the tree\'s horizon, degrees. [degrees, at least -89, at most 89, default 10.0]' -r

@@ -67,6 +67,7 @@ pub fn permuted(plant: &Plant) -> Result<Plant, PlantError> {
             positions: order.list(&part.positions),
             normals: order.list(&part.normals),
             uvs: order.list(&part.uvs),
+            colors: order.list(&part.colors),
             position_ids: order.list(&part.position_ids),
             triangles: part.triangles.iter().map(|t| t.map(|v| new_vertex[v as usize])).collect(),
             ..part.clone()

@@ -113,6 +113,7 @@ impl Extraction<'_> {
             transform: drawn.transform,
             normals: self.optional(attributes, "NORMAL", &positions)?,
             uvs: self.uvs(attributes, info, &positions)?,
+            colors: self.colors(attributes, &positions)?,
             triangles: triangles::read(source, primitive, mode, positions.len(), mirrored, &pointer)?,
             position_ids,
             positions,
@@ -127,6 +128,18 @@ impl Extraction<'_> {
         self.same_length(accessor, uvs.len(), positions.len())?;
         uvs::transform(info, &mut uvs);
         Ok(uvs)
+    }
+
+    /// COLOR_0, three or four numbers; the alpha is left.
+    fn colors(&self, attributes: &Value, positions: &[Vec3]) -> Result<Vec<Vec3>, CarrierError> {
+        let Some(accessor) = index_of(attributes, "COLOR_0") else { return Ok(Vec::new()) };
+        let kind = self.source.document.item("accessors", accessor).and_then(|a| a.get("type"));
+        let width = if kind.and_then(Value::as_str) == Some("VEC4") { 4 } else { 3 };
+        let data = self.source.floats(accessor, width)?;
+        self.check(accessor, &data, width, f32::MAX)?;
+        let colors: Vec<Vec3> = data.chunks_exact(width).map(Vec3::from_slice).collect();
+        self.same_length(accessor, colors.len(), positions.len())?;
+        Ok(colors)
     }
 
     fn optional(&self, attributes: &Value, name: &str, positions: &[Vec3]) -> Result<Vec<Vec3>, CarrierError> {

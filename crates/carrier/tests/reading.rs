@@ -86,7 +86,9 @@ fn quantized_normalized_strided_and_sparse_numbers() {
         json!({"normalized": true}),
     );
     let indices = maker.accessor(&[0, 2, 1], 5121, "SCALAR", 3, json!({}));
-    let attributes = json!({"POSITION": position, "NORMAL": normal, "TEXCOORD_0": uv});
+    let rgba = [255u8, 51, 0, 9, 0, 255, 102, 9, 0, 0, 0, 9];
+    let color = maker.accessor(&rgba, 5121, "VEC4", 3, json!({"normalized": true}));
+    let attributes = json!({"POSITION": position, "NORMAL": normal, "TEXCOORD_0": uv, "COLOR_0": color});
     maker.draw(vec![json!({"attributes": attributes, "indices": indices})], json!({"scale": [0.01, 0.01, 0.01]}));
     let asset = read_maker(maker);
     let part = &asset.base.parts[0];
@@ -94,6 +96,7 @@ fn quantized_normalized_strided_and_sparse_numbers() {
     assert_eq!(part.normals, [Vec3::Y, Vec3::NEG_X, Vec3::NEG_Z], "-128 is -1 too");
     assert_eq!(part.uvs[0], Vec2::new(0.0, 1.0));
     assert_eq!(part.uvs[1], Vec2::new(32768.0 / 65535.0, 0.0));
+    assert_eq!(part.colors, [Vec3::new(1.0, 0.2, 0.0), Vec3::new(0.0, 1.0, 0.4), Vec3::ZERO], "without their alpha");
     assert_eq!(part.triangles, [[0, 2, 1]]);
 }
 

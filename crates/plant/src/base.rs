@@ -32,6 +32,8 @@ pub struct Part {
     pub normals: Vec<Vec3>,
     /// TEXCOORD of the base color texture (glTF: v down); empty where there is none.
     pub uvs: Vec<Vec2>,
+    /// COLOR_0, linear, without its alpha; empty where there is none. For pictures: no room reads it.
+    pub colors: Vec<Vec3>,
     /// Vertex indices, counter-clockwise seen from the front in the *rest frame* (a mirrored node's are turned).
     pub triangles: Vec<[u32; 3]>,
     /// Vertices that share an id are one position of the file (OBJ: the file's own `v` index; glTF:

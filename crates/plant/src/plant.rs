@@ -157,6 +157,7 @@ fn check_part(index: usize, part: &Part, position_count: u32) -> Result<(), Plan
     for (what, length, may_be_empty) in [
         ("normals", part.normals.len(), true),
         ("uvs", part.uvs.len(), true),
+        ("colors", part.colors.len(), true),
         ("position_ids", part.position_ids.len(), false),
     ] {
         if length != count && !(may_be_empty && length == 0) {

@@ -14,6 +14,9 @@ pub enum Look {
     /// With what was baked: realigned normals, ambient coefficient.
     #[default]
     Baked,
+    /// As any glTF viewer does without foliar's shaders: NORMAL turned by the triangle's side, `COLOR_0` as a
+    /// factor on the color, back faces of one-sided materials left out, no shadows on the tree.
+    Stock,
 }
 
 /// What lies behind the tree.
@@ -111,6 +114,8 @@ pub enum Shading {
     Plain,
     /// As [`Look::Baked`].
     Baked,
+    /// As [`Look::Stock`].
+    Stock,
     /// A channel or column in false colors, with a legend.
     Channel(String),
 }
@@ -122,6 +127,7 @@ impl ViewParams {
             (Some(name), _) => Shading::Channel(name.clone()),
             (None, Look::Plain) => Shading::Plain,
             (None, Look::Baked) => Shading::Baked,
+            (None, Look::Stock) => Shading::Stock,
         }
     }
 

@@ -28,6 +28,7 @@ const GROUND_RADIUS: f32 = 1.5 * PLANT_EDGE as f32;
 /// - Masks cut at their cutoff, blended materials stop a ray with the probability of their alpha.
 /// - Light: sun with shadow, even sky times the ambient coefficient (1 where none was baked), half of
 ///   the sun's light on the back of a leaf shines through it. Below 0.6 tone mapping changes nothing.
+/// - [`Shading::Stock`] is lit by what a viewer knows that never heard of foliar, see [`crate::Look::Stock`].
 /// - False colors are not lit, so that they are the legend's.
 ///
 /// The same bytes for any number of threads.
@@ -136,7 +137,9 @@ impl<'a> Tracer<'a> {
     /// Light and coverage of one ray, light weighted by coverage.
     fn sample(&self, pixel: &mut Pixel, index: usize, direction: Vec3, covered: bool) -> Vec4 {
         let beam = Beam { origin: self.camera.eye, direction, reach: f32::INFINITY };
-        let stops = |hit: &Hit| self.scene.stops(hit, || self.chance(pixel.seed, index, hit.triangle));
+        let stops = |hit: &Hit| {
+            self.scene.shows(hit, direction) && self.scene.stops(hit, || self.chance(pixel.seed, index, hit.triangle))
+        };
         let hit = if covered { self.scene.rays.nearest(&beam, pixel.last.as_ref(), stops) } else { None };
         pixel.last = hit.or(pixel.last);
         match hit {
@@ -150,7 +153,7 @@ impl<'a> Tracer<'a> {
     fn lit(&self, pixel: &mut Pixel, index: usize, beam: &Beam, hit: &Hit) -> Vec3 {
         let surface = self.scene.surface(hit, beam.direction);
         let mut sun = shade::sunlit(&surface, self.sun);
-        if sun > 0.0 {
+        if sun > 0.0 && !self.scene.stock {
             let lift = if surface.flat.dot(self.sun) < 0.0 { -surface.flat } else { surface.flat };
             let from = beam.origin + beam.direction * hit.distance + lift * LIFT;
             if !self.sun_reaches(pixel, 0, index, from) {

@@ -42,8 +42,20 @@ struct Skin<'a> {
     /// Where the texture has alpha that counts; parts of one material share it.
     cover: Option<Arc<Cover>>,
     leaf: bool,
-    /// Normals say how the crown stands to the light, not which side of a leaf this is.
-    soft: bool,
+    facing: Facing,
+    /// Seen from its front only: a viewer leaves out its back.
+    one_sided: bool,
+}
+
+/// What a vertex normal is turned by.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Facing {
+    /// To the viewer's side of the triangle.
+    Viewer,
+    /// By nothing: it says how the crown stands to the light, not which side of a leaf this is.
+    Crown,
+    /// By the triangle's side, whatever way it points itself (glTF 2.0, section "double sided").
+    Winding,
 }
 
 /// One triangle.
@@ -55,7 +67,7 @@ struct Face {
 
 /// A place on a surface that a ray met.
 pub(crate) struct Surface {
-    /// Toward the viewer, unless the skin's normals are soft.
+    /// Toward the viewer, unless the skin's normals say otherwise.
     pub normal: Vec3,
     /// Normal of the triangle, toward the viewer.
     pub flat: Vec3,
@@ -78,7 +90,9 @@ pub(crate) struct Scene<'a> {
     pub legend: Option<Legend>,
     faces: Vec<Face>,
     vertices: Vec<Vertex>,
-    /// False color per vertex; empty where the picture is lit.
+    /// Whether it is drawn as a viewer would that never heard of foliar.
+    pub stock: bool,
+    /// False color per vertex, or a factor on its color; empty where there is neither.
     colors: Vec<Vec3>,
     skins: Vec<Skin<'a>>,
     decode: Decode,
@@ -98,6 +112,7 @@ impl<'a> Scene<'a> {
             legend: None,
             faces: Vec::new(),
             vertices: Vec::new(),
+            stock: *shading == Shading::Stock,
             colors: Vec::new(),
             skins: Vec::new(),
             decode: Decode::new(),
@@ -107,13 +122,13 @@ impl<'a> Scene<'a> {
             Shading::Baked => {
                 (values::ambient(plant, layers)?, values::attribute(plant, layers, names::SOFT_NORMAL, 3)?)
             }
-            Shading::Plain | Shading::Channel(_) => (none(), none()),
+            Shading::Plain | Shading::Stock | Shading::Channel(_) => (none(), none()),
         };
         let shown = match shading {
             Shading::Channel(name) => Some(values::false_colors(plant, layers, name)?),
-            Shading::Plain | Shading::Baked => None,
+            Shading::Plain | Shading::Baked | Shading::Stock => None,
         };
-        scene.skins = skins(plant, &soft);
+        scene.skins = skins(plant, &soft, scene.stock);
         for (index, part) in plant.parts().iter().enumerate() {
             scene.add(plant, index, part, ambient[index], soft[index], shown.as_ref());
         }
@@ -149,6 +164,8 @@ impl<'a> Scene<'a> {
         }));
         if let Some(shown) = shown {
             self.colors.extend(&shown.colors[index]);
+        } else if self.stock {
+            self.colors.extend((0..places.len()).map(|v| part.colors.get(v).copied().unwrap_or(Vec3::ONE)));
         }
         for corners in &part.triangles {
             let points = corners.map(|c| places[c as usize]);
@@ -174,6 +191,18 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// Whether a ray that goes along `direction` sees this side of what it met.
+    #[inline]
+    pub fn shows(&self, hit: &Hit, direction: Vec3) -> bool {
+        !self.skins[self.faces[hit.triangle as usize].skin as usize].one_sided || self.wound(hit).dot(direction) <= 0.0
+    }
+
+    /// Normal of a triangle as it is wound, any length.
+    fn wound(&self, hit: &Hit) -> Vec3 {
+        let [a, b, c] = self.triangles[hit.triangle as usize];
+        (b - a).cross(c - a)
+    }
+
     /// False color at a hit.
     pub fn false_color(&self, hit: &Hit) -> Vec3 {
         self.blend(&self.faces[hit.triangle as usize], hit, |v| self.colors[v])
@@ -183,15 +212,21 @@ impl<'a> Scene<'a> {
     pub fn surface(&self, hit: &Hit, direction: Vec3) -> Surface {
         let face = &self.faces[hit.triangle as usize];
         let skin = &self.skins[face.skin as usize];
-        let [a, b, c] = self.triangles[hit.triangle as usize];
-        let toward_viewer = |n: Vec3| if n.dot(direction) > 0.0 { -n } else { n };
-        let flat = toward_viewer((b - a).cross(c - a).normalize_or_zero());
+        let wound = self.wound(hit).normalize_or_zero();
+        let from_behind = wound.dot(direction) > 0.0;
+        let flat = if from_behind { -wound } else { wound };
         let own = self.blend(face, hit, |v| self.vertices[v].normal).normalize_or(flat);
         let texel = skin.texture.as_ref().map_or(Vec3::ONE, |t| t.color(self.uv(face, hit), &self.decode));
+        let factor = if self.stock { self.blend(face, hit, |v| self.colors[v]) } else { Vec3::ONE };
         Surface {
-            normal: if skin.soft { own } else { facing(own, flat) },
+            normal: match skin.facing {
+                Facing::Crown => own,
+                Facing::Viewer if own.dot(flat) < 0.0 => -own,
+                Facing::Winding if from_behind => -own,
+                Facing::Viewer | Facing::Winding => own,
+            },
             flat,
-            color: skin.color * texel,
+            color: skin.color * texel * factor,
             ambient: self.blend(face, hit, |v| Vec3::splat(self.vertices[v].ambient)).x,
             leaf: skin.leaf,
         }
@@ -208,15 +243,15 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// A vertex normal on the side of the triangle's: both sides of a leaf, and the inside of a tube, are lit.
-fn facing(own: Vec3, flat: Vec3) -> Vec3 {
-    if own.dot(flat) < 0.0 { -own } else { own }
-}
-
 /// Skins of all parts; `soft` says which have realigned normals.
-fn skins<'a>(plant: &'a Plant, soft: &[Option<&[f32]>]) -> Vec<Skin<'a>> {
+fn skins<'a>(plant: &'a Plant, soft: &[Option<&[f32]>], stock: bool) -> Vec<Skin<'a>> {
     let mut covers: BTreeMap<u32, Arc<Cover>> = BTreeMap::new();
-    let mut skins: Vec<Skin> = (0..plant.parts().len()).map(|part| skin(plant, part, soft[part].is_some())).collect();
+    let facing = |part: usize| match soft[part] {
+        _ if stock => Facing::Winding,
+        Some(_) => Facing::Crown,
+        None => Facing::Viewer,
+    };
+    let mut skins: Vec<Skin> = (0..plant.parts().len()).map(|part| skin(plant, part, facing(part))).collect();
     for (skin, part) in skins.iter_mut().zip(plant.parts()) {
         if let (Some(texture), Some(material)) = (&skin.texture, part.material)
             && skin.alpha_mode != AlphaMode::Opaque
@@ -228,7 +263,8 @@ fn skins<'a>(plant: &'a Plant, soft: &[Option<&[f32]>]) -> Vec<Skin<'a>> {
     skins
 }
 
-fn skin(plant: &Plant, index: usize, soft: bool) -> Skin<'_> {
+fn skin(plant: &Plant, index: usize, facing: Facing) -> Skin<'_> {
+    let stock = facing == Facing::Winding;
     let role = plant.role(index);
     let base = plant.base();
     let material = base.parts[index].material.and_then(|m| base.materials.get(m as usize));
@@ -243,13 +279,14 @@ fn skin(plant: &Plant, index: usize, soft: bool) -> Skin<'_> {
         Role::Other => own,
     };
     Skin {
-        color: if texture.is_none() && says_nothing(own) { by_role } else { own },
+        color: if !stock && texture.is_none() && says_nothing(own) { by_role } else { own },
         alpha,
         alpha_mode: material.map_or(AlphaMode::Opaque, |m| m.alpha_mode),
         texture,
         cover: None,
-        leaf: role == Role::Leaf,
-        soft,
+        leaf: role == Role::Leaf && !stock,
+        facing,
+        one_sided: stock && !material.is_some_and(|m| m.double_sided),
     }
 }
 

@@ -54,7 +54,7 @@ fn any_number_of_threads_draws_the_same_bytes() {
 #[test]
 fn odd_plants_get_a_picture() {
     for sample in odd_plants() {
-        for shading in [Shading::Plain, Shading::Baked] {
+        for shading in [Shading::Plain, Shading::Baked, Shading::Stock] {
             let picture = render(&sample.plant, &[], &shading, &small()).map_err(|e| format!("{}: {e}", sample.name));
             assert_eq!(picture.unwrap().dimensions(), (120, 90), "{}", sample.name);
         }

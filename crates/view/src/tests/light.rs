@@ -184,3 +184,31 @@ fn a_material_that_says_nothing_is_drawn_as_bark_or_foliage() {
     let chosen = colors::to_bytes(0.3 * shade::SKY, 1.0);
     assert!(close(of(Role::Leaf, gray(0.3)), chosen), "a color that somebody chose stays");
 }
+
+#[test]
+fn a_stock_viewer_takes_normal_and_color_0_of_the_file_and_no_shadow() {
+    let color = Vec3::new(0.5, 0.25, 1.0);
+    let own = Vec3::new(0.6, 0.0, 0.8);
+    let leaf = |double_sided| {
+        let part = quad(Vec3::ZERO, Vec3::X, Vec3::Y);
+        let part = Part { normals: vec![own; 4], colors: vec![color; 4], ..part };
+        // Something between it and the sun, out of the camera's way.
+        let lid = quad(Vec3::new(3.0, 0.0, 4.0), Vec3::Y, Vec3::Z);
+        let material = Material { double_sided, ..gray(0.15) };
+        plant(vec![(part, Role::Leaf, material), (lid, Role::Other, gray(0.1))], vec![])
+    };
+    let seen = |azimuth_deg, sun_azimuth_deg, double_sided| {
+        let params = ViewParams { azimuth_deg, sun_azimuth_deg, sun_elevation_deg: 1.0, ..frontal() };
+        middle(&render(&leaf(double_sided), &[&layer(0, &[])], &Shading::Stock, &params).unwrap()).0
+    };
+    let lit = |normal: Vec3, sun_azimuth_deg| {
+        let cosine = normal.dot(camera::direction(sun_azimuth_deg, 1.0).as_vec3()).max(0.0);
+        colors::to_bytes(0.15 * color * (shade::SUN * cosine + shade::SKY), 1.0)
+    };
+    assert!(close(seen(0.0, 37.0, true), lit(own, 37.0)), "{:?}", seen(0.0, 37.0, true));
+    // From behind the normal is turned, and no light shines through.
+    assert!(close(seen(180.0, 200.0, true), lit(-own, 200.0)), "{:?}", seen(180.0, 200.0, true));
+    assert!(close(seen(180.0, 37.0, true), lit(-own, 37.0)));
+    assert_eq!(seen(180.0, 200.0, false)[3], 0, "the back of a one-sided material is not drawn");
+    assert!(close(seen(0.0, 37.0, false), lit(own, 37.0)));
+}
