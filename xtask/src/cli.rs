@@ -14,7 +14,7 @@ struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Chore {
-    /// House rules as code: floors, lengths, first lines, names, references
+    /// House rules as code: floors, lengths, first lines, names, references, planted faults that still apply
     Tidy,
     /// Writes the generated documents (channel and issue tables, schemas, man pages, completions, README help)
     Gen {

@@ -3,6 +3,7 @@
 mod floors;
 mod lengths;
 mod names;
+mod patches;
 mod references;
 mod source;
 mod texts;
@@ -24,6 +25,7 @@ pub fn run() -> Result<()> {
         }
     }
     complaints.extend(references::check(&files)?);
+    complaints.extend(patches::check(&repo::root(), &files)?);
     complaints.iter().for_each(|c| println!("{c}"));
     if !complaints.is_empty() {
         bail!("tidy: {} complaints", complaints.len());
