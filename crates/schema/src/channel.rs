@@ -76,6 +76,9 @@ pub struct Column {
 /// Steps and rooms in the order in which files list them.
 pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_DENSITY];
 
+/// Rooms that the plan names and this version has not.
+pub const LATER_ROOMS: &[&str] = &["wind", "light", "occlusion", "translucency", "fall", "noise", "leafscan", "check"];
+
 /// Largest leaf id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;
 
@@ -167,6 +170,11 @@ mod tests {
     #[test]
     fn every_channel_and_column_belongs_to_a_listed_room() {
         assert!(CHANNELS.iter().map(|c| c.room).chain(COLUMNS.iter().map(|c| c.room)).all(|r| ROOMS.contains(&r)));
+    }
+
+    #[test]
+    fn a_room_is_here_or_comes_later() {
+        assert!(LATER_ROOMS.iter().all(|later| !ROOMS.contains(later)));
     }
 
     #[test]

@@ -12,7 +12,7 @@ mod ranges;
 mod record;
 mod role;
 
-pub use channel::{CHANNELS, COLUMNS, Channel, Column, Element, Neutral, ROOMS, channel, column};
+pub use channel::{CHANNELS, COLUMNS, Channel, Column, Element, LATER_ROOMS, Neutral, ROOMS, channel, column};
 pub use codes::{CODES, CodeInfo, code};
 pub use config::{
     Ambient, Budget, Camera, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
