@@ -37,9 +37,11 @@ fn a_dry_run_prints_the_plan_and_writes_nothing() {
     let here = folder();
     tree(here.path(), 60);
     let run = run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "tree.glb", "--dry-run"]).expect(0, &[]);
-    for fragment in ["baker", "density", "yes", "wind: not in this version", "radius_m"] {
+    let radius = "\"radius_m\":\"from the crown's size and the number of its leaves\"";
+    for fragment in ["baker", "density", "yes", "wind: not in this version", radius] {
         assert!(run.stdout.contains(fragment), "no {fragment:?} in {}", run.stdout);
     }
+    assert!(!run.stdout.contains("null"), "a parameter that the room settles says so: {}", run.stdout);
     assert!(!here.path().join("tree.glb").exists());
 }
 
@@ -192,8 +194,11 @@ fn a_picture_is_drawn_beside_the_output() {
     let picture = here.path().join("tree.png");
     let input = tree(here.path(), 60);
     let arguments = [&["bake", text(&input), "-o", text(&out), "--picture", text(&picture)], &small[..]].concat();
-    run(FOLIAR, &arguments).expect(0, &[]);
-    assert_eq!(&std::fs::read(picture).unwrap()[..8], b"\x89PNG\r\n\x1a\n");
+    let said = run(FOLIAR, &arguments).expect(0, &[]).stdout;
+    assert_eq!(&std::fs::read(&picture).unwrap()[..8], b"\x89PNG\r\n\x1a\n");
+    assert!(said.contains(&format!("{}: written", text(&picture))), "where the picture is: {said}");
+    let line = run(FOLIAR, &[&arguments[..], &["--format", "json"]].concat()).expect(0, &[]).json_lines().remove(0);
+    assert_eq!(line["outputs"], serde_json::json!([text(&picture), text(&out)]));
 }
 
 #[test]
@@ -225,5 +230,5 @@ fn findings_come_in_the_formats_of_those_who_show_them() {
     assert!(bake("github").starts_with("::notice file="), "GitHub");
     let line: Value = serde_json::from_str(&bake("json")).unwrap();
     assert_eq!(line["status"], "unchanged");
-    run(FOLIAR, &["inspect", text(&out), "--format", "sarif"]).expect(2, &["--format"]);
+    run(FOLIAR, &["bake", text(&input), "-o", text(&out), "--format", "xml"]).expect(2, &["--format"]);
 }

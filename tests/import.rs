@@ -1,6 +1,6 @@
 //! `foliar-import`: structure and nothing else.
 
-use crate::common::{IMPORT, folder, open_glb, output, run, text, tree};
+use crate::common::{IMPORT, folder, open_glb, output, run, shared, text, tree};
 
 #[test]
 fn an_imported_plant_has_structure_only() {
@@ -36,6 +36,21 @@ fn units_and_axes_are_turned_at_import() {
     let tops = json["accessors"].as_array().unwrap().iter().filter_map(|accessor| accessor["max"][1].as_f64());
     let top = tops.fold(0.0, f64::max);
     assert!((top - 12.0).abs() < 1e-3, "12 m tall, not {top} (f32 coordinates)");
+}
+
+#[test]
+fn a_lying_trunk_is_told_what_helps_this_kind_of_file() {
+    let here = folder();
+    let out = here.path().join("out.glb");
+    let said = |name: &str, flags: &[&str]| {
+        let input = shared(&format!("trees/{name}"))?;
+        Some(run(IMPORT, &[&[text(&input), "-o", text(&out)], flags].concat()).expect(0, &["IMPORT-LYING"]).stderr)
+    };
+    let Some(obj) = said("mtree_fused_small/tree.obj", &[]) else { return };
+    assert!(obj.contains("if Z is up in this file, say --up z"), "{obj}");
+    // What an OBJ became is a glTF: the flag does nothing any more.
+    let again = run(IMPORT, &[text(&out), "-o", text(&out), "--min-confidence", "0.4"]).expect(0, &["IMPORT-LYING"]);
+    assert!(again.stderr.contains("turn it in the modeller") && !again.stderr.contains("--up"), "{}", again.stderr);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod bad_input;
 mod bake;
 mod common;
 mod config;
+mod conventions;
 mod density;
 mod expected;
 mod generate;

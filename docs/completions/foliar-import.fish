@@ -1,13 +1,6 @@
 complete -c foliar-import -s o -l output -d 'Output: .glb, .gltf, .layer (one room alone), or - for standard output' -r -F
 complete -c foliar-import -s d -l directory -d 'Writes DIR/NAME.glb for each input' -r -F
 complete -c foliar-import -l picture -d 'Draws what was baked' -r -F
-complete -c foliar-import -l report -d 'Writes what was found, baked and measured' -r -F
-complete -c foliar-import -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
-complete -c foliar-import -l outputs -d 'Writes the list of files that belong to the output' -r -F
-complete -c foliar-import -l fail-on -d 'Findings as serious as this end the bake with status 1, the old output left as it is' -r -f -a "note\t''
-warning\t''
-error\t''"
-complete -c foliar-import -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar-import -l cache -d 'Keeps layers by content: an unchanged room is not baked again' -r -F
 complete -c foliar-import -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
@@ -30,16 +23,23 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar-import -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar-import -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar-import -l outputs -d 'Writes the list of files that belong to the output' -r -F
+complete -c foliar-import -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar-import -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar-import -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar-import -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar-import -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
 json\t''
 sarif\t''
 junit\t''
 github\t''"
 complete -c foliar-import -l keep-going -d 'Bakes the other inputs where one fails'
-complete -c foliar-import -l dry-run -d 'Prints the plan and stops'
-complete -c foliar-import -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar-import -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar-import -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar-import -l dry-run -d 'Prints what would be done and stops'
+complete -c foliar-import -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar-import -s q -l quiet -d 'Prints errors only'
 complete -c foliar-import -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar-import -s h -l help -d 'Print help (see more with \'--help\')'

@@ -23,7 +23,7 @@ _foliar__view() {
 
     case "${cmd}" in
         foliar__view)
-            opts="-o -q -v -h -V --output --sheet --threads --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --width-px --height-px --samples --look --channel --azimuth-deg --elevation-deg --fov-deg --sun-azimuth-deg --sun-elevation-deg --exposure --background --ground --unit --set --config --no-config --quiet --verbose --format --help --version"
+            opts="-o -q -v -h -V --output --sheet --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --width-px --height-px --samples --look --channel --azimuth-deg --elevation-deg --fov-deg --sun-azimuth-deg --sun-elevation-deg --exposure --background --ground --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -34,10 +34,6 @@ _foliar__view() {
                     return 0
                     ;;
                 -o)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --threads)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -145,8 +141,28 @@ _foliar__view() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --outputs)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --report)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --depfile)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --fail-on)
+                    COMPREPLY=($(compgen -W "note warning error" -- "${cur}"))
+                    return 0
+                    ;;
+                --threads)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --format)
-                    COMPREPLY=($(compgen -W "human json" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "human json sarif junit github" -- "${cur}"))
                     return 0
                     ;;
                 *)

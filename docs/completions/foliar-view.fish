@@ -1,5 +1,4 @@
 complete -c foliar-view -s o -l output -d 'Output: .png, or - for standard output' -r -F
-complete -c foliar-view -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar-view -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar-view -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
@@ -38,10 +37,22 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar-view -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar-view -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar-view -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar-view -l outputs -d 'Writes the list of files that belong to the output' -r -F
+complete -c foliar-view -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar-view -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar-view -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar-view -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar-view -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar-view -l sheet -d 'Draws a contact sheet: plain, baked, difference, ambient coefficient'
 complete -c foliar-view -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar-view -l dry-run -d 'Prints what would be done and stops'
+complete -c foliar-view -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar-view -s q -l quiet -d 'Prints errors only'
 complete -c foliar-view -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar-view -s h -l help -d 'Print help (see more with \'--help\')'

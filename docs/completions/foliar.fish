@@ -37,13 +37,6 @@ complete -c foliar -n "__fish_foliar_needs_command" -f -a "help" -d 'Print this 
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s o -l output -d 'Output: .glb, .gltf, .layer (one room alone), or - for standard output' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s d -l directory -d 'Writes DIR/NAME.glb for each input' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l picture -d 'Draws what was baked' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l report -d 'Writes what was found, baked and measured' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l outputs -d 'Writes the list of files that belong to the output' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l fail-on -d 'Findings as serious as this end the bake with status 1, the old output left as it is' -r -f -a "note\t''
-warning\t''
-error\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l cache -d 'Keeps layers by content: an unchanged room is not baked again' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
@@ -65,6 +58,13 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l outputs -d 'Writes the list of files that belong to the output' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
 json\t''
 sarif\t''
@@ -72,23 +72,16 @@ junit\t''
 github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l only -d 'Bakes this room only, whatever the scene requires; repeatable' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Bakes the other inputs where one fails'
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l dry-run -d 'Prints the plan and stops'
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l dry-run -d 'Prints what would be done and stops'
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s o -l output -d 'Output: .glb, .gltf, .layer (one room alone), or - for standard output' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s d -l directory -d 'Writes DIR/NAME.glb for each input' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l picture -d 'Draws what was baked' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l report -d 'Writes what was found, baked and measured' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l outputs -d 'Writes the list of files that belong to the output' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l fail-on -d 'Findings as serious as this end the bake with status 1, the old output left as it is' -r -f -a "note\t''
-warning\t''
-error\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l cache -d 'Keeps layers by content: an unchanged room is not baked again' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
@@ -110,33 +103,96 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l outputs -d 'Writes the list of files that belong to the output' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l threads -d 'Works in so many threads; the result is the same for any number' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
 json\t''
 sarif\t''
 junit\t''
 github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l keep-going -d 'Bakes the other inputs where one fails'
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l dry-run -d 'Prints the plan and stops'
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l dry-run -d 'Prints what would be done and stops'
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s o -l output -d 'Output: .glb, .gltf, or - for standard output' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
+z\t'Z up: turned by -90 degrees about X.'"
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
+false\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
+cm\t'Centimeter.'
+mm\t'Millimeter.'
+in\t'Inch.'
+ft\t'Foot.'"
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l outputs -d 'Writes the list of files that belong to the output' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l dry-run -d 'Prints what would be done and stops'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s v -l verbose -d 'Prints each step with its time'
-complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s h -l help -d 'Print help'
+complete -c foliar -n "__fish_foliar_using_subcommand assemble" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -s o -l output -d 'Output: .glb, .gltf, or - for standard output' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand strip" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
+z\t'Z up: turned by -90 degrees about X.'"
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
+false\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
+cm\t'Centimeter.'
+mm\t'Millimeter.'
+in\t'Inch.'
+ft\t'Foot.'"
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l outputs -d 'Writes the list of files that belong to the output' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -l dry-run -d 'Prints what would be done and stops'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -l check -d 'Writes nothing; status 1 where the output would change'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand strip" -s v -l verbose -d 'Prints each step with its time'
-complete -c foliar -n "__fish_foliar_using_subcommand strip" -s h -l help -d 'Print help'
+complete -c foliar -n "__fish_foliar_using_subcommand strip" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
@@ -157,8 +213,17 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand config" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand config" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand config" -s v -l verbose -d 'Prints each step with its time'
@@ -183,8 +248,17 @@ in\t'Inch.'
 ft\t'Foot.'"
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
-complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l format -d 'How results are printed: for people (human) or as JSON (json)' -r -f -a "human\t''
-json\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s v -l verbose -d 'Prints each step with its time'

@@ -1,18 +1,19 @@
-//! One asset all the way: read, structure, plan, rooms, assemble, write.
+//! One asset all the way: read, structure, plan, rooms, assemble.
 
 use crate::cache::Cache;
 use crate::console::Console;
 use crate::gather::Sources;
 use crate::load::{Loaded, load};
-use crate::options::{Format, Mode, Options, is_dash};
+use crate::options::{Mode, Options};
 use crate::outputs::{self, Job};
 use crate::plan::{self, Row};
 use crate::progress::Bar;
 use crate::report::Report;
 use crate::rooms::{self, Room};
+use crate::runner::Product;
 use crate::{Failure, config::Settings};
 use foliar_bake::{Baker, Facts, Layer};
-use foliar_carrier::{Document, Outcome, OutputFile};
+use foliar_carrier::{Document, OutputFile};
 use foliar_schema::{Finding, code, names};
 use foliar_view::ViewParams;
 use std::path::Path;
@@ -33,36 +34,11 @@ pub struct Baking<'a> {
     pub again: bool,
 }
 
-/// What became of an asset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// New bytes are in place.
-    Written,
-    /// The same bytes were there already.
-    Unchanged,
-    /// `--check`: the bytes would change.
-    Outdated,
-    /// Only the plan or the roles were printed.
-    Planned,
-}
-
-impl Status {
-    /// The word in JSON lines.
-    pub fn word(self) -> &'static str {
-        match self {
-            Status::Written => "written",
-            Status::Unchanged => "unchanged",
-            Status::Outdated => "outdated",
-            Status::Planned => "planned",
-        }
-    }
-}
-
 /// Bakes one asset.
 ///
 /// # Errors
 /// [`Failure`]; the old output is intact.
-pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Status, Failure> {
+pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Product, Failure> {
     let loaded = load(baking.sources, baking.options, &job.input)?;
     report.loaded(&loaded);
     baking.console.log(&report.lap("read"));
@@ -73,23 +49,24 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Statu
     let only = if baking.again { Some(recorded.as_slice()) } else { baking.only };
     let rows = plan::make(baking.bakers, &loaded.settings, only, &Facts::of(&loaded.plant))?;
     report.plan(&rows);
-    let for_people = baking.options.format == Format::Human && baking.options.inputs.len() == 1;
-    if for_people && baking.options.explain_roles {
-        baking.console.result(foliar_structure::explain(&loaded.evidence).trim_end())?;
-    }
-    if for_people && baking.options.mode == Mode::DryRun {
-        baking.console.result(&plan::table(&rows))?;
-    }
-    let Some(output) = &job.output else { return Ok(Status::Planned) };
+    report.text = asked(baking, &loaded, &rows);
+    let Some(output) = &job.output else { return Ok(Product::Planned) };
     if baking.options.mode == Mode::DryRun {
-        return Ok(Status::Planned);
+        return Ok(Product::Planned);
     }
     let rooms = bake_rooms(baking, &loaded, &rows, report)?;
-    let files = finish(baking, &loaded, &rows, &rooms, output, report)?;
-    fail_on(baking, report)?;
-    let status = commit(baking, &files)?;
-    baking.console.log(&report.lap("write"));
-    Ok(status)
+    Ok(Product::Files(finish(baking, &loaded, &rows, &rooms, output, report)?))
+}
+
+/// The roles and the plan for people, where they were asked for.
+fn asked(baking: &Baking, loaded: &Loaded, rows: &[Row]) -> Option<String> {
+    if baking.options.inputs.len() > 1 {
+        return None;
+    }
+    let roles = baking.options.explain_roles.then(|| foliar_structure::explain(&loaded.evidence).trim_end().to_owned());
+    let plan = (baking.options.mode == Mode::DryRun).then(|| plan::table(rows));
+    let parts: Vec<String> = roles.into_iter().chain(plan).collect();
+    (!parts.is_empty()).then(|| parts.join("\n"))
 }
 
 fn bake_rooms(baking: &Baking, loaded: &Loaded, rows: &[Row], report: &mut Report) -> Result<Vec<Room>, Failure> {
@@ -121,7 +98,6 @@ fn finish(
         baking.console.log(&report.lap("picture"));
     }
     files.extend(main_files(loaded, rooms, &document, output)?);
-    report.written = files.iter().map(|file| file.path.clone()).filter(|path| !is_dash(path)).collect();
     Ok(files)
 }
 
@@ -175,41 +151,4 @@ fn draw(loaded: &Loaded, layers: &[Layer], picture: &Path) -> Result<OutputFile,
 /// [`Failure::Usage`] as every section.
 pub fn view_params(settings: &Settings) -> Result<ViewParams, Failure> {
     settings.section("view")
-}
-
-/// Prints the findings, and refuses those that are too serious.
-fn fail_on(baking: &Baking, report: &Report) -> Result<(), Failure> {
-    for finding in &report.findings {
-        baking.console.finding(finding);
-    }
-    let Some(limit) = baking.options.fail_on else { return Ok(()) };
-    let bad: Vec<&str> = report.findings.iter().filter(|f| f.severity >= limit).map(|f| f.code.as_str()).collect();
-    match bad.as_slice() {
-        [] => Ok(()),
-        _ => Err(Failure::Found(format!("--fail-on: found {}; nothing was written", bad.join(", ")))),
-    }
-}
-
-fn commit(baking: &Baking, files: &[OutputFile]) -> Result<Status, Failure> {
-    let (data, files): (Vec<&OutputFile>, Vec<&OutputFile>) = files.iter().partition(|file| is_dash(&file.path));
-    let files: Vec<OutputFile> = files.into_iter().cloned().collect();
-    if baking.options.mode == Mode::Check {
-        let same = foliar_carrier::is_unchanged(&files);
-        return Ok(if same { Status::Unchanged } else { Status::Outdated });
-    }
-    make_folders(baking.options)?;
-    let outcome = foliar_carrier::write_files(&files)?;
-    for file in &data {
-        baking.console.data(&file.bytes)?;
-    }
-    match outcome {
-        Outcome::Unchanged if data.is_empty() => Ok(Status::Unchanged),
-        _ => Ok(Status::Written),
-    }
-}
-
-/// `-d DIR` makes its folder; `-o` expects one.
-fn make_folders(options: &Options) -> Result<(), Failure> {
-    let Some(directory) = &options.directory else { return Ok(()) };
-    std::fs::create_dir_all(directory).map_err(|e| Failure::output(directory.display(), e))
 }

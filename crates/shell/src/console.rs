@@ -57,6 +57,14 @@ impl Console {
         if self.verbosity == Verbosity::Quiet { Ok(()) } else { self.result(text) }
     }
 
+    /// Lines for people, as [`Console::outcome`].
+    ///
+    /// # Errors
+    /// As [`Console::result`].
+    pub fn outcome_lines(&self, lines: &[String]) -> Result<(), Failure> {
+        if lines.is_empty() { Ok(()) } else { self.outcome(&lines.join("\n")) }
+    }
+
     /// Raw bytes on standard output.
     ///
     /// # Errors
@@ -79,6 +87,13 @@ impl Console {
     /// What a program does and how long it took, with `-v`.
     pub fn log(&self, text: &str) {
         if self.verbosity >= Verbosity::Verbose {
+            log_line(text);
+        }
+    }
+
+    /// What a person may want to know beside the results.
+    pub fn note(&self, text: &str) {
+        if self.verbosity >= Verbosity::Normal {
             log_line(text);
         }
     }

@@ -1,11 +1,12 @@
 //! Command lines, built from the list of all parameters. clap gets no defaults and no environment:
 //! what is present was given.
 
+use crate::Failure;
 use crate::config::{Field, Fields, Kind, Origin, Settings, from_text};
-use crate::{Failure, LATER_ROOMS};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Command, ValueHint, value_parser};
 use foliar_bake::Baker;
+use foliar_schema::LATER_ROOMS;
 use std::path::PathBuf;
 
 /// Which parameters are direct flags of a command; the others go by `--set section.key=value`.
@@ -15,15 +16,15 @@ pub enum Direct<'a> {
     Assets,
     /// Import and roles, and the parameters of one section.
     Section(&'a str),
-    /// None.
-    Nothing,
+    /// Import only.
+    Import,
 }
 
 impl Direct<'_> {
     /// The fields in question.
     pub fn fields<'f>(&'f self, fields: &'f Fields) -> impl Iterator<Item = &'f Field> {
         fields.all().iter().filter(move |field| match self {
-            Direct::Nothing => false,
+            Direct::Import => field.section == "import",
             Direct::Assets => is_asset(field) || field.dotted() == QUALITY,
             Direct::Section(section) => is_asset(field) || field.section == *section,
         })
@@ -71,12 +72,8 @@ fn value_name(field: &Field) -> String {
 /// Gives a command the flags of these parameters, and `--set` for all others.
 pub fn with_fields(command: Command, fields: &Fields, direct: Direct) -> Command {
     let command = command.args(direct.fields(fields).map(field_arg));
-    let command = if direct == Direct::Nothing {
-        command
-    } else {
-        command.mut_arg("import.unit", |arg| arg.conflicts_with("import.height_m"))
-    };
     command
+        .mut_arg("import.unit", |arg| arg.conflicts_with("import.height_m"))
         .arg(
             Arg::new("set")
                 .long("set")
@@ -156,23 +153,53 @@ pub fn output(help: &'static str) -> Arg {
     path("output", "OUT", help).short('o')
 }
 
-/// How every program speaks.
-pub fn with_voice(command: Command) -> Command {
+/// What a command leaves behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaves {
+    /// Files.
+    Files,
+    /// An answer on standard output.
+    Answer,
+}
+
+/// The flags of every program (house rules, section 6). One that only answers has nothing to check, to
+/// plan or to list.
+pub fn with_conventions(command: Command, leaves: Leaves) -> Command {
+    let command = match leaves {
+        Leaves::Answer => command,
+        Leaves::Files => command
+            .arg(switch("dry-run", "Prints what would be done and stops").conflicts_with("check"))
+            .arg(switch("check", "Writes nothing; status 1 where the output would change"))
+            .arg(path("outputs", "FILE.json", "Writes the list of files that belong to the output")),
+    };
     command
+        .arg(path("report", "FILE.json", "Writes what was read, found, made and measured"))
+        .arg(path("depfile", "FILE", "Writes every file that was really read, as a rule for make or ninja"))
+        .arg(
+            Arg::new("fail-on")
+                .long("fail-on")
+                .value_name("SEVERITY")
+                .value_parser(["note", "warning", "error"])
+                .help("Findings as serious as this end the work with status 1, the old output left as it is"),
+        )
+        .arg(
+            Arg::new("threads")
+                .long("threads")
+                .value_name("N")
+                .value_parser(value_parser!(u16).range(1..))
+                .help("Works in so many threads; the result is the same for any number"),
+        )
         .arg(switch("quiet", "Prints errors only").short('q').conflicts_with("verbose"))
         .arg(switch("verbose", "Prints each step with its time").short('v'))
-        .arg(format(["human", "json"], "How results are printed: for people (human) or as JSON (json)"))
-}
-
-/// `--format`.
-fn format<const N: usize>(words: [&'static str; N], help: &'static str) -> Arg {
-    Arg::new("format").long("format").value_name("FORMAT").value_parser(words).help(help)
-}
-
-/// More formats, for commands whose findings matter.
-pub fn with_finding_formats(command: Command) -> Command {
-    let help = "How results are printed: for people, as JSON lines, or the findings for machines that show them";
-    command.mut_arg("format", |_| format(["human", "json", "sarif", "junit", "github"], help))
+        .arg(
+            Arg::new("format")
+                .long("format")
+                .value_name("FORMAT")
+                .value_parser(["human", "json", "sarif", "junit", "github"])
+                .help(
+                    "How results are printed: for people, as JSON lines, or the findings for machines that show them",
+                ),
+        )
 }
 
 /// Flags of everything that bakes.
@@ -181,30 +208,8 @@ pub fn with_baking(command: Command) -> Command {
         .arg(path("directory", "DIR", "Writes DIR/NAME.glb for each input").short('d').conflicts_with("output"))
         .arg(switch("keep-going", "Bakes the other inputs where one fails"))
         .arg(path("picture", "FILE.png", "Draws what was baked"))
-        .arg(switch("dry-run", "Prints the plan and stops").conflicts_with("check"))
-        .arg(switch("check", "Writes nothing; status 1 where the output would change"))
-        .arg(path("report", "FILE.json", "Writes what was found, baked and measured"))
-        .arg(path("depfile", "FILE", "Writes every file that was really read, as a rule for make or ninja"))
-        .arg(path("outputs", "FILE.json", "Writes the list of files that belong to the output"))
-        .arg(
-            Arg::new("fail-on")
-                .long("fail-on")
-                .value_name("SEVERITY")
-                .value_parser(["note", "warning", "error"])
-                .help("Findings as serious as this end the bake with status 1, the old output left as it is"),
-        )
-        .arg(threads())
         .arg(path("cache", "DIR", "Keeps layers by content: an unchanged room is not baked again"))
         .arg(switch("explain-roles", "Prints each part with its role and the evidence; without an output, stops there"))
-}
-
-/// `--threads N`.
-pub fn threads() -> Arg {
-    Arg::new("threads")
-        .long("threads")
-        .value_name("N")
-        .value_parser(value_parser!(u16).range(1..))
-        .help("Works in so many threads; the result is the same for any number")
 }
 
 /// `--only ROOM`.

@@ -18,11 +18,10 @@ mod progress;
 mod record;
 mod report;
 mod rooms;
+mod runner;
 mod start;
+mod telling;
 
 pub use commands::{Program, commands};
 pub use failure::Failure;
 pub use start::{foliar, foliar_import, foliar_room, foliar_view};
-
-/// Rooms that the plan names and this version has not.
-pub const LATER_ROOMS: &[&str] = &["wind", "light", "occlusion", "translucency", "fall", "noise", "leafscan", "check"];

@@ -7,7 +7,7 @@ use crate::{Failure, record};
 use foliar_bake::Layer;
 use foliar_carrier::{Asset, Document, SourceKind};
 use foliar_plant::{Base, Plant};
-use foliar_schema::{Finding, Import, Severity, code, names};
+use foliar_schema::{Finding, Import, Severity, Up, code, names};
 use foliar_structure::{PartEvidence, StructureParams};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -43,21 +43,19 @@ pub struct Loaded {
 /// # Errors
 /// [`Failure`] with file, place and remedy.
 pub fn load(sources: &Sources, options: &Options, input: &Path) -> Result<Loaded, Failure> {
-    let before = sources.gather(options, input, Settings::default())?;
-    let asset = read(input, &before.section::<Import>("import")?)?;
+    let asset = asset(sources, options, input)?;
     let records: Vec<_> = asset.layers.iter().map(|layer| &layer.record).collect();
     let (given_before, mut findings) = record::settings(sources.fields, &records, input);
     let settings = sources.gather(options, input, given_before)?;
-    let Asset { document, base, base_hash, layers, findings: import_findings, mut files, source } = asset;
+    let Asset { document, base, base_hash, layers, findings: import_findings, files, source } = asset;
     findings.splice(0..0, import_findings);
-    findings.extend(ignored_for_gltf(&sources.flags, source, input));
-    files.extend(settings.files.iter().cloned());
     let is_master = !layers.is_empty();
     let (own, layers): (Vec<Layer>, Vec<Layer>) =
         layers.into_iter().partition(|layer| layer.record.room == names::ROOM_STRUCTURE);
     let kept = own.into_iter().find(|layer| still_valid(layer, &settings, &base_hash));
     let found = find_structure(&base, &settings, kept, options.explain_roles)?;
-    findings.extend(found.findings);
+    let remedy = lying_remedy(source, settings.section::<Import>("import")?.up);
+    findings.extend(found.findings.into_iter().map(|finding| with_remedy(finding, remedy)));
     let plant = Plant::new(base, found.structure).map_err(|e| Failure::Input(format!("{}: {e}", input.display())))?;
     Ok(Loaded {
         settings,
@@ -74,6 +72,29 @@ pub fn load(sources: &Sources, options: &Options, input: &Path) -> Result<Loaded
     })
 }
 
+/// Reads an asset alone; its files include the configuration.
+///
+/// # Errors
+/// [`Failure`] with file, place and remedy.
+pub fn asset(sources: &Sources, options: &Options, input: &Path) -> Result<Asset, Failure> {
+    let settings = sources.gather(options, input, Settings::default())?;
+    let mut asset = read(input, &settings.section::<Import>("import")?)?;
+    asset.findings.extend(ignored_for_gltf(&sources.flags, asset.source, input));
+    asset.files.extend(settings.files);
+    Ok(asset)
+}
+
+/// Reads a layer file.
+///
+/// # Errors
+/// [`Failure::Input`].
+pub fn layer(file: &Path) -> Result<Layer, Failure> {
+    let name = file.display().to_string();
+    let unreadable = |e| Failure::Input(format!("{name}: cannot be read: {e}: name a .layer file"));
+    let bytes = std::fs::read(file).map_err(unreadable)?;
+    Ok(foliar_carrier::layer_from_bytes(&bytes, &name)?)
+}
+
 /// What flags say of axis and unit of a glTF, which says both itself.
 fn ignored_for_gltf(flags: &Settings, source: SourceKind, input: &Path) -> Vec<Finding> {
     let given = ["import.up", "import.unit", "import.height_m"].into_iter().filter_map(|name| flags.get(name));
@@ -85,11 +106,28 @@ fn ignored_for_gltf(flags: &Settings, source: SourceKind, input: &Path) -> Vec<F
     if source == SourceKind::Obj { Vec::new() } else { given.map(finding).collect() }
 }
 
+/// What helps a trunk that lies on its side: only an OBJ is turned at import, about one axis.
+fn lying_remedy(source: SourceKind, up: Option<Up>) -> &'static str {
+    match (source, up) {
+        (SourceKind::Obj, Some(Up::Z)) => "if Y is up in this file, say --up y; else turn it in the modeller",
+        (SourceKind::Obj, _) => "if Z is up in this file, say --up z; else turn it in the modeller",
+        _ => "a glTF is Y up and is never turned: turn it in the modeller and export it again",
+    }
+}
+
+/// Structure does not know what kind of file lies there, and so not what would help.
+fn with_remedy(finding: Finding, remedy: &str) -> Finding {
+    if finding.code != code::IMPORT_LYING.code {
+        return finding;
+    }
+    Finding { message: format!("{}: {remedy}", finding.message), ..finding }
+}
+
 /// Reads a file, or standard input where its name is `-`.
 ///
 /// # Errors
 /// [`Failure::Input`] with file, place and remedy.
-pub fn read(input: &Path, import: &Import) -> Result<Asset, Failure> {
+fn read(input: &Path, import: &Import) -> Result<Asset, Failure> {
     if !is_dash(input) {
         return Ok(foliar_carrier::read(input, import)?);
     }
@@ -125,4 +163,21 @@ fn find_structure(
     let structure = foliar_structure::from_layer(&layer, base)?;
     let parts = if explain { foliar_structure::analyze(base, &roles, &params)?.parts } else { Vec::new() };
     Ok(foliar_structure::Analysis { structure, layer, parts, findings: Vec::new() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flag_is_advised_only_where_it_acts() {
+        let said = |source, up| with_remedy(Finding::new(&code::IMPORT_LYING, "lies"), lying_remedy(source, up));
+        assert!(said(SourceKind::Obj, None).message.contains("--up z"));
+        assert!(said(SourceKind::Obj, Some(Up::Z)).message.contains("--up y"));
+        for source in [SourceKind::Gltf, SourceKind::Glb] {
+            assert!(!said(source, Some(Up::Z)).message.contains("--"));
+        }
+        let other = Finding::new(&code::IMPORT_UP, "up");
+        assert_eq!(with_remedy(other.clone(), "x"), other);
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use crate::console::{Console, Verbosity};
+use crate::outputs::Job;
 use clap::ArgMatches;
 use foliar_schema::Severity;
 use std::path::{Path, PathBuf};
@@ -120,10 +121,16 @@ impl Options {
     /// Refuses flags that contradict each other by their values.
     ///
     /// # Errors
-    /// [`Failure::Usage`] for `-o -` with `--check`.
-    pub fn refuse_contradictions(&self) -> Result<(), Failure> {
+    /// [`Failure::Usage`] for `-o -` with `--check`, and for a rule about no file.
+    pub fn refuse_contradictions(&self, jobs: &[Job]) -> Result<(), Failure> {
         if self.mode == Mode::Check && self.output.as_deref().is_some_and(is_dash) {
             let text = "--check with -o -: standard output holds nothing to compare with: name the file with -o FILE";
+            return Err(Failure::usage(text));
+        }
+        let has_target = |job: &Job| job.output.as_deref().is_some_and(|output| !is_dash(output));
+        if self.depfile.is_some() && self.report.is_none() && !jobs.iter().all(has_target) {
+            let text =
+                "--depfile without a file that is made: name one with -o, or the report of it with --report FILE";
             return Err(Failure::usage(text));
         }
         Ok(())

@@ -20,7 +20,7 @@ pub struct Job {
 /// Pairs inputs with outputs.
 ///
 /// # Errors
-/// [`Failure::Usage`] where two would write the same file, or nobody said where to write.
+/// [`Failure::Usage`] where one file is named for several inputs.
 pub fn jobs(options: &Options) -> Result<Vec<Job>, Failure> {
     if options.inputs.len() > 1 {
         for (given, flag) in [(options.output.is_some(), "-o"), (options.picture.is_some(), "--picture")] {
@@ -39,7 +39,6 @@ pub fn jobs(options: &Options) -> Result<Vec<Job>, Failure> {
         };
         jobs.push(Job { input: input.clone(), output });
     }
-    refuse_duplicates(options, &jobs)?;
     Ok(jobs)
 }
 
@@ -50,7 +49,11 @@ fn glb_name(input: &Path) -> Result<String, Failure> {
     }
 }
 
-fn refuse_duplicates(options: &Options, jobs: &[Job]) -> Result<(), Failure> {
+/// Refuses two outputs of one name.
+///
+/// # Errors
+/// [`Failure::Usage`] with both purposes.
+pub fn refuse_duplicates(options: &Options, jobs: &[Job]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     let outputs = jobs.iter().filter_map(|job| Some((job.output.clone()?, job.input.display().to_string())));
     let lists = [
@@ -156,7 +159,7 @@ mod tests {
     #[test]
     fn inputs_of_one_name_in_two_folders_are_refused() {
         let two = Options { directory: Some("out".into()), ..options(&["a/tree.obj", "b/tree.obj"]) };
-        let text = jobs(&two).err().unwrap().to_string();
+        let text = refuse_duplicates(&two, &jobs(&two).unwrap()).unwrap_err().to_string();
         assert!(text.contains("a/tree.obj and b/tree.obj would both write out/tree.glb"), "{text}");
     }
 
@@ -165,7 +168,8 @@ mod tests {
         let two = Options { output: Some("x.glb".into()), ..options(&["a.obj", "b.obj"]) };
         assert!(jobs(&two).is_err());
         let same = Options { output: Some("x.glb".into()), report: Some("./x.glb".into()), ..options(&["a.obj"]) };
-        assert!(jobs(&same).err().unwrap().to_string().contains("--report"));
+        let both = refuse_duplicates(&same, &jobs(&same).unwrap()).unwrap_err().to_string();
+        assert!(both.contains("--report"), "{both}");
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! The plan: what will be baked, why, with which parameters, at what cost. Printed before work starts.
 
+use crate::Failure;
 use crate::config::Settings;
-use crate::{Failure, LATER_ROOMS};
 use foliar_bake::{Baker, Facts, Requirement, resolve_params};
-use foliar_schema::Scene;
+use foliar_schema::{LATER_ROOMS, Scene};
 use serde_json::{Map, Value, json};
 
 /// How fast rooms write, roughly: two cores write about this many bytes of layer a second. An
@@ -32,13 +32,30 @@ impl Row<'_> {
         self.bytes.map_or(0.0, |bytes| bytes as f64 / BYTES_PER_SECOND)
     }
 
+    /// Every parameter; one that the room settles itself says by what, as its doc comment has it after
+    /// "nothing said".
+    fn shown_params(&self) -> Value {
+        let schema = self.baker.schema();
+        let settled = |name: &str| {
+            let doc = schema["properties"][name]["description"].as_str().unwrap_or_default();
+            let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
+            let says = doc.split_once("nothing said: ").map_or("by the room", |(_, says)| says);
+            says.split_once(". ").map_or(says, |(says, _)| says).trim_end_matches('.').to_owned()
+        };
+        let shown = |(name, value): (&String, &Value)| {
+            let value = if value.is_null() { settled(name).into() } else { value.clone() };
+            (name.clone(), value)
+        };
+        Value::Object(self.params.iter().map(shown).collect())
+    }
+
     /// The row as JSON.
     pub fn to_json(&self) -> Value {
         json!({
             "baker": self.baker.room(),
             "needed": self.needed,
             "because": self.because,
-            "parameters": self.params,
+            "parameters": self.shown_params(),
             "bytes": self.bytes,
             "secondsEstimated": self.seconds(),
         })
@@ -103,7 +120,7 @@ pub fn table(rows: &[Row]) -> String {
     }
     let mut text = columns(&cells);
     for row in rows.iter().filter(|row| row.needed) {
-        text.push_str(&format!("{}: {}\n", row.baker.room(), Value::from(row.params.clone())));
+        text.push_str(&format!("{}: {}\n", row.baker.room(), row.shown_params()));
     }
     for room in LATER_ROOMS {
         text.push_str(&format!("{room}: not in this version\n"));

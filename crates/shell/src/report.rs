@@ -3,12 +3,30 @@
 use crate::load::Loaded;
 use crate::plan::Row;
 use crate::rooms::Room;
-use foliar_carrier::{Document, SourceKind};
+use crate::runner::Product;
+use foliar_carrier::{Asset, Document, SourceKind};
 use foliar_schema::{Finding, names};
 use foliar_structure::Evidence;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// A finished report.
+pub struct Told {
+    /// The whole object.
+    pub json: Map<String, Value>,
+    /// What people read in place of a result line.
+    pub text: Option<String>,
+    /// What machines read in place of it.
+    pub answer: Option<Value>,
+}
+
+impl Told {
+    /// Whether the input failed.
+    pub fn failed(&self) -> bool {
+        self.json.contains_key("error")
+    }
+}
 
 /// The report of one asset.
 pub struct Report {
@@ -20,6 +38,10 @@ pub struct Report {
     pub read: Vec<PathBuf>,
     /// Every file that belongs to the output.
     pub written: Vec<PathBuf>,
+    /// What people read in place of a result line.
+    pub text: Option<String>,
+    /// What machines read in place of it.
+    pub answer: Option<Value>,
     laps: Map<String, Value>,
     start: Instant,
     lap: Instant,
@@ -35,6 +57,8 @@ impl Report {
             findings: Vec::new(),
             read: Vec::new(),
             written: Vec::new(),
+            text: None,
+            answer: None,
             laps: Map::new(),
             start: now,
             lap: now,
@@ -62,6 +86,20 @@ impl Report {
             finding.file = finding.file.or_else(|| asset.clone());
             finding
         }));
+    }
+
+    /// What was read, of a file whose structure is not asked for.
+    pub fn asset(&mut self, asset: &Asset) {
+        self.read.extend_from_slice(&asset.files);
+        self.find(asset.findings.iter().cloned());
+        self.set("base", asset.base_hash.clone());
+    }
+
+    /// What would be written, in place of writing it.
+    pub fn planned(&mut self, output: &Path, what: &str) -> Product {
+        self.set("plan", json!([{ "writes": output.display().to_string(), "what": what }]));
+        self.text = Some(format!("would write {}: {what}", output.display()));
+        Product::Planned
     }
 
     /// What was read and found.
@@ -110,13 +148,13 @@ impl Report {
     }
 
     /// The whole object.
-    pub fn finish(mut self) -> Map<String, Value> {
+    pub fn finish(mut self) -> Told {
         self.set("findings", json!(self.findings));
         let laps = std::mem::take(&mut self.laps);
         self.set("stages", laps);
         let seconds = self.start.elapsed().as_secs_f64();
         self.set("seconds", seconds);
-        self.json
+        Told { json: self.json, text: self.text, answer: self.answer }
     }
 }
 

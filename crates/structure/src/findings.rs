@@ -84,8 +84,7 @@ fn unsure_message(unsure: &[&PartEvidence]) -> String {
 pub(crate) fn geometry_findings(geometry: &Geometry, zero_area: usize, lying: Option<&str>) -> Vec<Finding> {
     let mut findings = Vec::new();
     if let Some(axis) = lying {
-        let message =
-            format!("the trunk's end points to {axis}, not down: is the file's up axis right? (an OBJ: --up z)");
+        let message = format!("the trunk's end points to {axis}, not down");
         findings.push(Finding::new(&code::IMPORT_LYING, message));
     }
     let arealess: usize = geometry.parts.iter().map(|p| p.has_area.iter().filter(|a| !**a).count()).sum();

@@ -1,12 +1,12 @@
 //! `foliar generate`: man pages, completions, help texts and schemas, all from the one definition.
 
 use super::{Call, Program, commands};
+use crate::Failure;
 use crate::options::Options;
 use crate::outputs::{pretty, write_text};
-use crate::{Failure, LATER_ROOMS};
 use clap::Command;
 use clap_complete::Shell;
-use foliar_schema::FoliageExtension;
+use foliar_schema::{FoliageExtension, LATER_ROOMS};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 

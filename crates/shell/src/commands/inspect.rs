@@ -1,16 +1,16 @@
 //! `foliar inspect`: what a file holds.
 
-use super::{Call, assemble};
-use crate::config::Settings;
-use crate::console::Console;
+use super::Call;
 use crate::flags::Direct;
 use crate::gather::Sources;
-use crate::options::{Format, Options};
-use crate::outputs::is_layer;
+use crate::options::Options;
+use crate::outputs::{Job, is_layer};
+use crate::report::Report;
+use crate::runner::{self, Product};
 use crate::{Failure, load, plan};
 use foliar_bake::{Array, Layer};
 use foliar_plant::Base;
-use foliar_schema::{Import, names};
+use foliar_schema::names;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -19,18 +19,25 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     let options = Options::from(call.matches);
     let console = options.console();
     let sources = Sources::new(call, Direct::Assets)?;
-    for input in &options.inputs {
-        let held = if is_layer(input) { layer_file(input)? } else { asset(&sources, &options, &console, input)? };
-        match options.format {
-            Format::Json => console.result(&held.to_string())?,
-            _ => console.result(text(&held).trim_end())?,
-        }
-    }
-    Ok(())
+    let jobs: Vec<Job> = options.inputs.iter().map(|input| Job { input: input.clone(), output: None }).collect();
+    runner::run(&options, &console, &jobs, &mut |job, report| {
+        report.text = Some(String::new());
+        let held = if is_layer(&job.input) {
+            layer_file(&job.input, report)?
+        } else {
+            asset(&sources, &options, &job.input, report)?
+        };
+        console.log(&report.lap("read"));
+        report.text = Some(text(&held).trim_end().into());
+        report.set("held", held.clone());
+        report.answer = Some(held);
+        Ok(Product::Answer)
+    })
 }
 
-fn layer_file(input: &Path) -> Result<Value, Failure> {
-    let layer = assemble::read_layer(input)?;
+fn layer_file(input: &Path, report: &mut Report) -> Result<Value, Failure> {
+    let layer = load::layer(input)?;
+    report.read.push(input.to_path_buf());
     Ok(json!({
         "file": input.display().to_string(),
         "leaves": leaves(&layer),
@@ -38,12 +45,9 @@ fn layer_file(input: &Path) -> Result<Value, Failure> {
     }))
 }
 
-fn asset(sources: &Sources, options: &Options, console: &Console, input: &Path) -> Result<Value, Failure> {
-    let settings = sources.gather(options, input, Settings::default())?;
-    let asset = load::read(input, &settings.section::<Import>("import")?)?;
-    for finding in &asset.findings {
-        console.finding(finding);
-    }
+fn asset(sources: &Sources, options: &Options, input: &Path, report: &mut Report) -> Result<Value, Failure> {
+    let asset = load::asset(sources, options, input)?;
+    report.asset(&asset);
     let structure = asset.layers.iter().find(|layer| layer.record.room == names::ROOM_STRUCTURE);
     Ok(json!({
         "file": input.display().to_string(),
@@ -51,7 +55,7 @@ fn asset(sources: &Sources, options: &Options, console: &Console, input: &Path) 
         "leaves": structure.and_then(leaves),
         "parts": parts(&asset.base, structure),
         "rooms": asset.layers.iter().map(room).collect::<Vec<_>>(),
-        "findings": asset.findings,
+        "findings": report.findings,
     }))
 }
 

@@ -1,7 +1,7 @@
 //! The command lines of all programs.
 
 use crate::config::Fields;
-use crate::flags::{self, Direct};
+use crate::flags::{self, Direct, Leaves};
 use clap::{Arg, Command};
 use foliar_bake::Baker;
 
@@ -60,8 +60,8 @@ fn foliar(command: Command, bakers: &[&dyn Baker], fields: &Fields) -> Command {
         .arg_required_else_help(true)
         .subcommand(bake(bakers, fields))
         .subcommand(rebake(fields))
-        .subcommand(assemble())
-        .subcommand(strip())
+        .subcommand(assemble(fields))
+        .subcommand(strip(fields))
         .subcommand(config(fields))
         .subcommand(inspect(fields))
         .subcommand(generate())
@@ -72,7 +72,12 @@ fn baking(command: Command, fields: &Fields, direct: Direct) -> Command {
     let command = command
         .arg(flags::inputs("INPUT", "OBJ, glTF or GLB files; - is standard input").required(true))
         .arg(flags::output("Output: .glb, .gltf, .layer (one room alone), or - for standard output"));
-    flags::with_finding_formats(flags::with_voice(flags::with_fields(flags::with_baking(command), fields, direct)))
+    common(flags::with_baking(command), fields, direct, Leaves::Files)
+}
+
+/// What every command has: parameters, and the flags of the house.
+fn common(command: Command, fields: &Fields, direct: Direct, leaves: Leaves) -> Command {
+    flags::with_conventions(flags::with_fields(command, fields, direct), leaves)
 }
 
 fn bake(bakers: &[&dyn Baker], fields: &Fields) -> Command {
@@ -85,38 +90,34 @@ fn rebake(fields: &Fields) -> Command {
     baking(Command::new("rebake").about(about), fields, Direct::Assets)
 }
 
-fn assemble() -> Command {
+fn assemble(fields: &Fields) -> Command {
     let command = Command::new("assemble")
         .about("Puts layer files onto a plant; a layer of the same room is replaced")
-        .arg(flags::inputs("PLANT LAYER", "The plant (.glb or .gltf), then its layers").num_args(2..).required(true))
+        .arg(flags::inputs("PLANT LAYER", "The plant (OBJ, glTF or GLB), then its layers").num_args(2..).required(true))
         .arg(flags::output("Output: .glb, .gltf, or - for standard output").required(true));
-    flags::with_voice(command.arg(check_flag()))
+    common(command, fields, Direct::Import, Leaves::Files)
 }
 
-fn strip() -> Command {
+fn strip(fields: &Fields) -> Command {
     let command = Command::new("strip")
         .about("Takes every layer out of a file again: what comes back is the base")
-        .arg(flags::inputs("FILE", "A baked .glb or .gltf").num_args(1).required(true))
+        .arg(flags::inputs("FILE", "A baked .glb or .gltf; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .glb, .gltf, or - for standard output").required(true));
-    flags::with_voice(command.arg(check_flag()))
-}
-
-fn check_flag() -> Arg {
-    flags::switch("check", "Writes nothing; status 1 where the output would change")
+    common(command, fields, Direct::Import, Leaves::Files)
 }
 
 fn config(fields: &Fields) -> Command {
     let command = Command::new("config").about("Prints every parameter with its value and where that came from").arg(
         flags::inputs("INPUT", "The asset that it is about: its own file and what the scene implies count").num_args(1),
     );
-    flags::with_voice(flags::with_fields(command, fields, Direct::Assets))
+    common(command, fields, Direct::Assets, Leaves::Answer)
 }
 
 fn inspect(fields: &Fields) -> Command {
     let command = Command::new("inspect")
         .about("Prints what a file holds: parts, roles, leaves, channels, records")
         .arg(flags::inputs("FILE", "OBJ, glTF, GLB or layer files").required(true));
-    flags::with_voice(flags::with_fields(command, fields, Direct::Assets))
+    common(command, fields, Direct::Assets, Leaves::Answer)
 }
 
 fn generate() -> Command {
@@ -133,9 +134,8 @@ fn view(command: Command, fields: &Fields) -> Command {
         .about("Draws a tree as it is lit, or a channel in false colors")
         .arg(flags::inputs("FILE", "OBJ, glTF or GLB file; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .png, or - for standard output").required(true))
-        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"))
-        .arg(flags::threads());
-    flags::with_voice(flags::with_fields(command, fields, Direct::Section("view")))
+        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"));
+    common(command, fields, Direct::Section("view"), Leaves::Files)
 }
 
 #[cfg(test)]

@@ -146,7 +146,7 @@ impl Fields {
 
     fn unknown(&self, dotted: &str) -> String {
         let section = dotted.split('.').next().unwrap_or_default();
-        if crate::LATER_ROOMS.contains(&section) {
+        if foliar_schema::LATER_ROOMS.contains(&section) {
             return format!("{dotted}: {section}: not in this version");
         }
         let names: Vec<String> = self.all.iter().map(Field::dotted).collect();

@@ -1,0 +1,222 @@
+//! The road that every command takes: flags that contradict each other are refused, inputs are worked on
+//! one by one, findings judged, files put in place all or nothing, results told, lists written for build
+//! systems (house rules, section 6).
+
+use crate::console::Console;
+use crate::options::{Mode, Options, is_dash};
+use crate::outputs::{self, Job};
+use crate::report::{Report, Told};
+use crate::{Failure, finding_formats, telling};
+use foliar_carrier::{Outcome, OutputFile};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// What a command made of one input.
+pub enum Product {
+    /// Files to put in place, the commit last.
+    Files(Vec<OutputFile>),
+    /// The plan, or the roles: nothing is to be written.
+    Planned,
+    /// An answer on standard output.
+    Answer,
+}
+
+/// What became of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// New bytes are in place.
+    Written,
+    /// The same bytes were there already.
+    Unchanged,
+    /// `--check`: the bytes would change.
+    Outdated,
+    /// Only the plan or the roles were printed.
+    Planned,
+    /// What was asked was answered.
+    Answered,
+}
+
+impl Status {
+    /// The word in JSON lines.
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Written => "written",
+            Status::Unchanged => "unchanged",
+            Status::Outdated => "outdated",
+            Status::Planned => "planned",
+            Status::Answered => "answered",
+        }
+    }
+}
+
+/// What a command does with one input; everything before and after it is the runner's.
+pub type Work<'a> = &'a mut dyn FnMut(&Job, &mut Report) -> Result<Product, Failure>;
+
+/// Works on every input.
+///
+/// # Errors
+/// The input's own failure where there is one, [`Failure::Batch`] where there are several.
+pub fn run(options: &Options, console: &Console, jobs: &[Job], work: Work) -> Result<(), Failure> {
+    outputs::refuse_duplicates(options, jobs)?;
+    options.refuse_contradictions(jobs)?;
+    options.start_threads()?;
+    let several = jobs.len() > 1;
+    let mut done = Done::default();
+    let mut last = None;
+    for job in jobs {
+        let told = one(options, console, job, work, &mut done);
+        if several {
+            telling::tell(options, console, &told, several, &[])?;
+            done.failures.last().filter(|_| told.failed()).into_iter().for_each(|failure| console.error(failure));
+        }
+        let stop = told.failed() && !options.keep_going;
+        done.reports.push(told.json.clone());
+        last = Some(told);
+        if stop {
+            break;
+        }
+    }
+    if let Some(text) = finding_formats::text(options.format, &done.reports) {
+        console.result(&text)?;
+    }
+    let (lists, written) = write_lists(options, &done);
+    match last {
+        Some(told) if !several => telling::tell(options, console, &told, several, &lists)?,
+        _ => lists.iter().for_each(|list| console.note(&format!("{}: written", list.display()))),
+    }
+    written?;
+    verdict(jobs.len(), done)
+}
+
+/// What became of a run.
+#[derive(Default)]
+struct Done {
+    reports: Vec<Map<String, Value>>,
+    read: Vec<(PathBuf, Vec<PathBuf>)>,
+    written: Vec<PathBuf>,
+    failures: Vec<Failure>,
+    outdated: Vec<String>,
+}
+
+/// Works on one input.
+fn one(options: &Options, console: &Console, job: &Job, work: Work, done: &mut Done) -> Told {
+    let mut report = Report::new(&job.input);
+    report.set("output", job.output.as_ref().map(|path| path.display().to_string()));
+    let result = work(job, &mut report).and_then(|product| settle(options, console, product, &mut report));
+    let result = result.map_err(|e| e.in_file(&job.input.display().to_string()));
+    report.set("status", result.as_ref().map_or("failed", |status| status.word()));
+    if let Some(target) = rule_target(options, job) {
+        done.read.push((target, std::mem::take(&mut report.read)));
+    }
+    match result {
+        Ok(status) => {
+            let names: Vec<String> = report.written.iter().map(|path| path.display().to_string()).collect();
+            report.set("outputs", names);
+            done.written.append(&mut report.written);
+            if let (Status::Outdated, Some(output)) = (status, &job.output) {
+                done.outdated.push(output.display().to_string());
+            }
+        }
+        Err(failure) => {
+            report.set("exit", failure.status());
+            report.set("error", failure.to_string());
+            done.failures.push(failure);
+        }
+    }
+    report.finish()
+}
+
+/// What a rule for make is about: the output, or the report where there is no other.
+fn rule_target(options: &Options, job: &Job) -> Option<PathBuf> {
+    job.output.clone().filter(|output| !is_dash(output)).or_else(|| options.report.clone())
+}
+
+/// Prints and judges the findings, then puts the product in place.
+fn settle(options: &Options, console: &Console, product: Product, report: &mut Report) -> Result<Status, Failure> {
+    fail_on(options, console, report)?;
+    let files = match product {
+        Product::Planned => return Ok(Status::Planned),
+        Product::Answer => return Ok(Status::Answered),
+        Product::Files(files) => files,
+    };
+    let status = commit(options, console, &files)?;
+    report.written = files.into_iter().map(|file| file.path).filter(|path| !is_dash(path)).collect();
+    console.log(&report.lap("write"));
+    Ok(status)
+}
+
+/// Prints the findings, and refuses those that are too serious.
+fn fail_on(options: &Options, console: &Console, report: &Report) -> Result<(), Failure> {
+    for finding in &report.findings {
+        console.finding(finding);
+    }
+    let Some(limit) = options.fail_on else { return Ok(()) };
+    let bad: Vec<&str> = report.findings.iter().filter(|f| f.severity >= limit).map(|f| f.code.as_str()).collect();
+    match bad.as_slice() {
+        [] => Ok(()),
+        _ => Err(Failure::Found(format!("--fail-on: found {}; nothing was written", bad.join(", ")))),
+    }
+}
+
+fn commit(options: &Options, console: &Console, files: &[OutputFile]) -> Result<Status, Failure> {
+    let (data, files): (Vec<&OutputFile>, Vec<&OutputFile>) = files.iter().partition(|file| is_dash(&file.path));
+    let files: Vec<OutputFile> = files.into_iter().cloned().collect();
+    if options.mode == Mode::Check {
+        let same = foliar_carrier::is_unchanged(&files);
+        return Ok(if same { Status::Unchanged } else { Status::Outdated });
+    }
+    make_folders(options)?;
+    let outcome = foliar_carrier::write_files(&files)?;
+    for file in &data {
+        console.data(&file.bytes)?;
+    }
+    match outcome {
+        Outcome::Unchanged if data.is_empty() => Ok(Status::Unchanged),
+        _ => Ok(Status::Written),
+    }
+}
+
+/// `-d DIR` makes its folder; `-o` expects one.
+fn make_folders(options: &Options) -> Result<(), Failure> {
+    let Some(directory) = &options.directory else { return Ok(()) };
+    std::fs::create_dir_all(directory).map_err(|e| Failure::output(directory.display(), e))
+}
+
+/// Writes report, rules and list of outputs; those that are written, and whether all are.
+fn write_lists(options: &Options, done: &Done) -> (Vec<PathBuf>, Result<(), Failure>) {
+    let mut lists = Vec::new();
+    if let Some(path) = &options.report {
+        let report = json!({ "foliar": env!("CARGO_PKG_VERSION"), "assets": done.reports });
+        lists.push((path, outputs::pretty(&report)));
+    }
+    let complete = options.mode == Mode::Write && done.failures.is_empty();
+    if let Some(path) = options.depfile.as_ref().filter(|_| complete) {
+        lists.push((path, outputs::depfile(&done.read)));
+    }
+    if let Some(path) = options.outputs.as_ref().filter(|_| complete) {
+        let names: Vec<String> = done.written.iter().map(|file| file.display().to_string()).collect();
+        lists.push((path, outputs::pretty(&json!(names))));
+    }
+    let mut written = Vec::new();
+    for (path, text) in lists {
+        if let Err(failure) = outputs::write_text(path, text) {
+            return (written, Err(failure));
+        }
+        written.push(path.clone());
+    }
+    (written, Ok(()))
+}
+
+fn verdict(total: usize, mut done: Done) -> Result<(), Failure> {
+    let untried = total - done.reports.len();
+    match done.failures.pop() {
+        Some(failure) if total == 1 => Err(failure),
+        Some(_) => Err(Failure::Batch {
+            failed: done.failures.len() + 1,
+            total,
+            rest: if untried == 0 { String::new() } else { format!(", {untried} not tried (--keep-going tries all)") },
+        }),
+        None if !done.outdated.is_empty() => Err(Failure::Found(format!("would change: {}", done.outdated.join(", ")))),
+        None => Ok(()),
+    }
+}
