@@ -1,7 +1,7 @@
 //! The same plant, said otherwise: renumbered, moved, in another unit. What law 8 compares.
 
 use crate::Array;
-use foliar_plant::{Base, NO_LEAF, Part, Plant, PlantError, Structure};
+use foliar_plant::{Base, Branches, NO_LEAF, Part, Plant, PlantError, Structure};
 use glam::{DAffine3, DVec3};
 
 /// Row i of a renumbered list is row `(first + i * stride) mod count` of the original.
@@ -76,7 +76,15 @@ pub fn permuted(plant: &Plant) -> Result<Plant, PlantError> {
         leaf_ids.push(order.list(ids).into_iter().map(renamed).collect());
     }
     let base = Base { parts, ..plant.base().clone() };
-    Plant::new(base, Structure { leaves: leaf_order.list(&structure.leaves), leaf_ids, ..structure.clone() })
+    let renumbered =
+        Plant::new(base, Structure { leaves: leaf_order.list(&structure.leaves), leaf_ids, ..structure.clone() })?;
+    let Some(branches) = plant.branches() else { return Ok(renumbered) };
+    // Branches keep their ids: nothing says that those must follow the vertices.
+    renumbered.with_branches(Branches {
+        vertices: branches.vertices.iter().map(|list| Permutation::of(list.len()).list(list)).collect(),
+        leaves: leaf_order.list(&branches.leaves),
+        ..branches.clone()
+    })
 }
 
 /// Moved by a few of its own sizes; a power of two, so that what f32 holds far from the origin stays exact.
@@ -109,5 +117,9 @@ fn changed(plant: &Plant, change: DAffine3) -> Result<Plant, PlantError> {
         leaf.petiole = change.transform_point3(leaf.petiole.as_dvec3()).as_vec3();
         leaf.area = (f64::from(leaf.area) * scale * scale) as f32;
     }
-    Plant::new(base, structure)
+    let changed = Plant::new(base, structure)?;
+    match plant.branches() {
+        Some(branches) => changed.with_branches(branches.transformed(change)),
+        None => Ok(changed),
+    }
 }

@@ -86,9 +86,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ids_of_leaves_are_named_as_the_contract_says() {
+    fn ids_of_leaves_and_branches_are_named_as_the_contract_says() {
         let (label, class) = id_names(names::LEAF_ID).unwrap();
         assert_eq!((label.as_str(), class.as_str()), (names::LABEL_LEAF, names::CLASS_LEAF));
+        let (label, class) = id_names(names::BRANCH_ID).unwrap();
+        assert_eq!((label.as_str(), class.as_str()), (names::LABEL_BRANCH, names::CLASS_BRANCH));
         assert_eq!(id_names(names::AMBIENT), None);
     }
 }

@@ -153,8 +153,8 @@ impl Master<'_> {
         let count = number(&self.json["accessors"][number(&attributes["POSITION"])]["count"]);
         let mut found = BTreeSet::new();
         for channel in CHANNELS {
-            if channel.name == names::LEAF_ID {
-                if self.leaf_ids(primitive, count, tables)? {
+            if let Some((_, label, class)) = IDS.iter().find(|ids| ids.0 == channel.name) {
+                if self.ids(primitive, count, tables, (label, class))? {
                     found.insert(channel.name);
                 }
                 continue;
@@ -169,16 +169,22 @@ impl Master<'_> {
         Ok((found, !role.is_null()))
     }
 
-    /// Whether a primitive has leaf ids; each is a row, or the null id.
-    fn leaf_ids(&self, primitive: &Value, count: usize, tables: &[Table]) -> Result<bool, String> {
+    /// Whether a primitive has ids with this label; each is a row, or the null id.
+    fn ids(
+        &self,
+        primitive: &Value,
+        count: usize,
+        tables: &[Table],
+        (label, class): (&str, &str),
+    ) -> Result<bool, String> {
         let features = &primitive["extensions"][names::MESH_FEATURES]["featureIds"];
-        let feature = items(features).map(|(_, f)| f).filter(|f| f["label"] == names::LABEL_LEAF).last();
+        let feature = items(features).map(|(_, f)| f).filter(|f| f["label"] == label).last();
         let Some(feature) = feature else { return Ok(false) };
         let table =
             feature["propertyTable"].as_u64().map(|t| tables.get(t as usize).ok_or("no such table")).transpose()?;
-        let leaf = tables.iter().find(|t| t.class == names::CLASS_LEAF);
-        ensure(table.is_none_or(|t| t.class == names::CLASS_LEAF), || "leaf ids name another table".into())?;
-        let rows = table.or(leaf).map_or(0, |t| t.rows);
+        let own = tables.iter().find(|t| t.class == class);
+        ensure(table.is_none_or(|t| t.class == class), || format!("{label}: its ids name another table"))?;
+        let rows = table.or(own).map_or(0, |t| t.rows);
         ensure(number(&feature["featureCount"]) == rows.max(1), || format!("featureCount is not {rows}"))?;
         let null = number(&feature["nullFeatureId"]);
         ensure(null == rows, || format!("nullFeatureId {null} is not {rows}, the number of rows"))?;
@@ -186,7 +192,7 @@ impl Master<'_> {
         let accessor = primitive["attributes"][&attribute].as_u64().ok_or(format!("{attribute} does not exist"))?;
         let ids = self.floats(accessor as usize, 1, count)?;
         let bad = ids.iter().find(|id| id.fract() != 0.0 || **id < 0.0 || **id > null as f64);
-        ensure(bad.is_none(), || format!("leaf id {bad:?} is no row of {rows}"))?;
+        ensure(bad.is_none(), || format!("{label}: id {bad:?} is no row of {rows}"))?;
         Ok(true)
     }
 
@@ -275,6 +281,12 @@ impl Master<'_> {
         Ok(())
     }
 }
+
+/// Channels that are ids, with label and table class.
+const IDS: [(&str, &str, &str); 2] = [
+    (names::LEAF_ID, names::LABEL_LEAF, names::CLASS_LEAF),
+    (names::BRANCH_ID, names::LABEL_BRANCH, names::CLASS_BRANCH),
+];
 
 fn float(bytes: &[u8], at: usize) -> Option<f64> {
     let four: [u8; 4] = bytes.get(at..at + 4)?.try_into().ok()?;

@@ -1,6 +1,6 @@
 //! A plant: base and structure, checked once.
 
-use crate::{Base, Leaf, NO_LEAF, Part};
+use crate::{Base, Branches, Leaf, NO_LEAF, Part, branches};
 use foliar_schema::Role;
 use glam::{DVec3, Vec3};
 
@@ -57,6 +57,18 @@ pub enum PlantError {
         /// What else it must be.
         rule: &'static str,
     },
+    /// Branches do not fit the base, or break an invariant of their own.
+    #[error("branches, {what} {at}: {value}, must be {expected}; find the branches of this base anew")]
+    Branches {
+        /// Which list or value.
+        what: &'static str,
+        /// Row in it.
+        at: usize,
+        /// What it is.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
 }
 
 /// Largest coordinate: its fourth power is still a finite f64 and its square a finite f32.
@@ -77,6 +89,7 @@ impl Base {
 pub struct Plant {
     base: Base,
     structure: Structure,
+    branches: Option<Branches>,
     center: DVec3,
     size: DVec3,
 }
@@ -90,7 +103,21 @@ impl Plant {
         base.check()?;
         check_structure(&base, &structure)?;
         let (center, size) = frame(&base, &structure);
-        Ok(Plant { base, structure, center, size })
+        Ok(Plant { base, structure, branches: None, center, size })
+    }
+
+    /// The same plant with its branches.
+    ///
+    /// # Errors
+    /// [`PlantError::Branches`] names the first list or row that breaks an invariant.
+    pub fn with_branches(self, branches: Branches) -> Result<Plant, PlantError> {
+        branches::check(&branches, &self.base, self.structure.leaves.len())?;
+        Ok(Plant { branches: Some(branches), ..self })
+    }
+
+    /// Its branches, where somebody asked for them.
+    pub fn branches(&self) -> Option<&Branches> {
+        self.branches.as_ref()
     }
 
     /// The base as read.

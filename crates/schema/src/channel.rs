@@ -74,12 +74,12 @@ pub struct Column {
 }
 
 /// Steps and rooms in the order in which files list them.
-pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_DENSITY];
+pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_DENSITY];
 
 /// Rooms that the plan names and this version has not.
 pub const LATER_ROOMS: &[&str] = &["wind", "light", "occlusion", "translucency", "fall", "noise", "leafscan", "check"];
 
-/// Largest leaf id that a float attribute holds exactly.
+/// Largest id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;
 
 /// All channels, in the order in which files list them.
@@ -97,6 +97,20 @@ pub const CHANNELS: &[Channel] = &[
         step_unit: "id",
         neutral: Neutral::NullId,
         doc: "leaf that the vertex belongs to",
+    },
+    Channel {
+        name: names::BRANCH_ID,
+        room: names::ROOM_BRANCHES,
+        width: 1,
+        roles: &[Role::Wood],
+        min: 0.0,
+        max: MAX_ID,
+        unit_length: false,
+        unit: "row of foliarBranch",
+        visible_step: 1.0,
+        step_unit: "id",
+        neutral: Neutral::NullId,
+        doc: "branch that the vertex belongs to, at any depth",
     },
     Channel {
         name: names::AMBIENT,
@@ -143,6 +157,21 @@ macro_rules! leaf_column {
     };
 }
 
+macro_rules! branch_column {
+    ($name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
+        Column {
+            class: names::CLASS_BRANCH,
+            name: $name,
+            room: names::ROOM_BRANCHES,
+            element: Element::$element,
+            width: $width,
+            array: $array,
+            unit: $unit,
+            doc: $doc,
+        }
+    };
+}
+
 /// All columns, in the order in which files list them.
 pub const COLUMNS: &[Column] = &[
     leaf_column!("center", F32, 3, "m, rest frame", "area-weighted center of the leaf"),
@@ -150,7 +179,32 @@ pub const COLUMNS: &[Column] = &[
     leaf_column!("area", F32, 1, "m^2", "one-sided area times alpha coverage"),
     leaf_column!("group", I32, 1, "group id", "leaves that are one object share it"),
     leaf_column!("petiole", F32, 3, "m, rest frame", "point of the leaf nearest to wood"),
+    Column {
+        class: names::CLASS_LEAF,
+        name: "branch",
+        room: names::ROOM_BRANCHES,
+        element: Element::I32,
+        width: 1,
+        array: false,
+        unit: "row of foliarBranch, -1 none",
+        doc: "branch that the petiole is nearest to",
+    },
     leaf_column!("crownVolume", I32, 1, "0 or 1", "1 where the row was sampled from a crown volume"),
+    branch_column!("parent", I32, 1, false, "row of foliarBranch, -1 none", "branch that it grows from; -1 for a root"),
+    branch_column!("level", I32, 1, false, "level", "0 for a stem, else its parent's plus one"),
+    branch_column!(
+        "chain",
+        I32,
+        4,
+        true,
+        "rows of foliarBranch, -1 none",
+        "the branch itself or its ancestor at levels 0 to 3"
+    ),
+    branch_column!("pivot", F32, 3, false, "m, rest frame", "where its axis, drawn on backward, meets its parent's"),
+    branch_column!("direction", F32, 3, false, "unit vector, rest frame", "from its root to the middle of its length"),
+    branch_column!("length", F32, 1, false, "m", "length of its axis"),
+    branch_column!("radius", F32, 1, false, "m", "radius at its root"),
+    branch_column!("margin", F32, 1, false, "1", "cost of the second-best parent less that of the chosen one"),
 ];
 
 /// The channel of this name.

@@ -19,6 +19,8 @@ pub const METADATA_SCHEMA_ID: &str = "foliar";
 
 /// Layer key of leaf ids (in files: a feature id attribute with label [`LABEL_LEAF`]).
 pub const LEAF_ID: &str = "LEAF_ID";
+/// Layer key of branch ids (in files: a feature id attribute with label [`LABEL_BRANCH`]).
+pub const BRANCH_ID: &str = "BRANCH_ID";
 /// Ambient coefficient k_a (Luft07 eq. 4) or the sky's ambient term.
 pub const AMBIENT: &str = "_AMBIENT";
 /// Realigned normal (Luft07 section 4), unit, in the mesh's own frame.
@@ -27,8 +29,13 @@ pub const SOFT_NORMAL: &str = "_SOFT_NORMAL";
 /// Table class of leaves; row = leaf id.
 pub const CLASS_LEAF: &str = "foliarLeaf";
 
+/// Table class of branches; row = branch id.
+pub const CLASS_BRANCH: &str = "foliarBranch";
+
 /// The step that finds roles and leaves.
 pub const ROOM_STRUCTURE: &str = "structure";
+/// The layer of the branch hierarchy, which structure finds when a room asks for it.
+pub const ROOM_BRANCHES: &str = "branches";
 /// The room of metaball density (Luft07).
 pub const ROOM_DENSITY: &str = "density";
 

@@ -1,7 +1,8 @@
 //! Geometry to facts: roles of parts with their evidence, leaves with area, group and petiole,
-//! virtual leaves of crown volumes. Found once, for every room. Branches come with wind.
+//! virtual leaves of crown volumes; and, when a room asks for it, the branch hierarchy. Found once, for every room.
 
 mod analyze;
+pub mod branches;
 mod coverage;
 mod crown;
 mod error;

@@ -1,6 +1,7 @@
 //! Builds a base and its true structure side by side, piece by piece.
 
-use crate::{AlphaMode, Base, Leaf, Material, NO_LEAF, Part, Place, Plant, Raster, Structure};
+use super::hierarchy::Hierarchy;
+use crate::{AlphaMode, Axis, Base, Leaf, Material, NO_LEAF, OnBranch, Part, Place, Plant, Raster, Structure};
 use foliar_schema::Role;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
@@ -26,6 +27,8 @@ pub struct LeafTruth {
     pub petiole: Vec3,
     /// Group it belongs to; a group of its own where `None`.
     pub group: Option<u32>,
+    /// Branch (as [`Build::branch`] numbered it) and arc length where it hangs; the nearest axis where it says none.
+    pub on: OnBranch,
 }
 
 /// A plant in the making.
@@ -35,6 +38,8 @@ pub struct Build {
     pub base: Base,
     /// So far.
     pub structure: Structure,
+    /// So far.
+    pub hierarchy: Hierarchy,
 }
 
 impl Build {
@@ -101,6 +106,14 @@ impl Build {
         }
     }
 
+    /// Adds a tube that is one branch: `rings` says for each of its vertices which point of the axis it
+    /// belongs to; axis in the part's own frame. Returns the number of the branch.
+    pub fn branch(&mut self, part: usize, piece: &Piece, rings: &[u32], axis: &Axis, parent: Option<u32>) -> u32 {
+        let first = self.base.parts[part].positions.len();
+        self.piece(part, piece);
+        self.hierarchy.add(part, first, rings, axis, &self.base.parts[part].transform, parent)
+    }
+
     /// Adds a piece that is one leaf.
     pub fn leaf(&mut self, part: usize, piece: &Piece, truth: &LeafTruth) {
         let first = self.base.parts[part].positions.len();
@@ -108,6 +121,7 @@ impl Build {
         self.piece(part, piece);
         self.structure.leaf_ids[part][first..].fill(self.structure.leaves.len() as u32);
         self.structure.leaves.push(leaf);
+        self.hierarchy.leaf(leaf.petiole, truth.on);
     }
 
     fn leaf_row(&self, part: usize, piece: &Piece, truth: &LeafTruth) -> Leaf {
@@ -140,7 +154,9 @@ impl Build {
     )]
     pub fn finish(mut self) -> Plant {
         self.base.parts.iter_mut().for_each(smooth_normals);
-        Plant::new(self.base, self.structure).expect("samples are plants")
+        let branches = self.hierarchy.finish(&self.base, &self.structure);
+        let plant = Plant::new(self.base, self.structure).expect("samples are plants");
+        plant.with_branches(branches).expect("samples are plants")
     }
 }
 

@@ -5,19 +5,21 @@ use super::noise::{hash, mix, signed, unit};
 use super::skeleton::Skeleton;
 use super::textures::ATLAS;
 use super::tree::Recipe;
+use crate::OnBranch;
 use glam::{DVec3, Vec2};
 
 /// Every leaf of a tree, in the order of its twigs.
 pub fn leaves(skeleton: &Skeleton, recipe: &Recipe, coverage: &[f64]) -> Vec<(Piece, LeafTruth)> {
     let runs = twigs(skeleton, recipe);
-    let total: f64 = runs.iter().map(|(a, b)| a.distance(*b)).sum();
+    let total: f64 = runs.iter().map(|run| run.from.distance(run.to)).sum();
     let spacing = total / f64::from(recipe.leaves);
     let mut leaves = Vec::with_capacity(recipe.leaves as usize);
     let mut ahead = 0.5 * spacing;
-    for (from, to) in runs {
+    for Run { from, to, branch, arc } in runs {
         let length = from.distance(to);
         while ahead < length && leaves.len() < recipe.leaves as usize {
-            let site = Site { place: from.lerp(to, ahead / length), along: (to - from) / length };
+            let on = OnBranch { branch, arc: (arc + ahead) as f32 };
+            let site = Site { place: from.lerp(to, ahead / length), along: (to - from) / length, on };
             leaves.push(leaf(&site, leaves.len() as u64, recipe, coverage));
             ahead += spacing;
         }
@@ -33,14 +35,33 @@ pub fn leaves(skeleton: &Skeleton, recipe: &Recipe, coverage: &[f64]) -> Vec<(Pi
 struct Site {
     place: DVec3,
     along: DVec3,
+    on: OnBranch,
+}
+
+/// A segment of a branch that bears leaves.
+struct Run {
+    from: DVec3,
+    to: DVec3,
+    branch: u32,
+    /// Arc length at which it starts.
+    arc: f64,
 }
 
 /// Segments that bear leaves: those that carry little.
-fn twigs(skeleton: &Skeleton, recipe: &Recipe) -> Vec<(DVec3, DVec3)> {
+fn twigs(skeleton: &Skeleton, recipe: &Recipe) -> Vec<Run> {
     let nodes = &skeleton.nodes;
-    let runs = skeleton.chains.iter().flat_map(|c| c.nodes.windows(2));
-    let bearing = runs.filter(|pair| nodes[pair[1]].load <= recipe.bearing_load);
-    bearing.map(|pair| (nodes[pair[0]].position, nodes[pair[1]].position)).filter(|(a, b)| a != b).collect()
+    let mut runs = Vec::new();
+    for (branch, chain) in skeleton.chains.iter().enumerate() {
+        let mut arc = 0.0;
+        for pair in chain.nodes.windows(2) {
+            let (from, to) = (nodes[pair[0]].position, nodes[pair[1]].position);
+            if nodes[pair[1]].load <= recipe.bearing_load && from != to {
+                runs.push(Run { from, to, branch: branch as u32, arc });
+            }
+            arc += from.distance(to);
+        }
+    }
+    runs
 }
 
 fn leaf(site: &Site, index: u64, recipe: &Recipe, coverage: &[f64]) -> (Piece, LeafTruth) {
@@ -59,7 +80,7 @@ fn leaf(site: &Site, index: u64, recipe: &Recipe, coverage: &[f64]) -> (Piece, L
     let variant = (hash(seed, 8 * index + 5) % coverage.len() as u64) as usize;
     let petiole = site.place - along * (0.04 * size);
     let piece = card(petiole, [along, face], size, &Look { variant, rows: recipe.leaf_rows, droop: 0.35 });
-    let truth = LeafTruth { coverage: coverage[variant], petiole: petiole.as_vec3(), group: None };
+    let truth = LeafTruth { coverage: coverage[variant], petiole: petiole.as_vec3(), group: None, on: site.on };
     (piece, truth)
 }
 

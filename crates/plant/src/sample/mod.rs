@@ -4,6 +4,7 @@
 
 mod build;
 mod foliage;
+mod hierarchy;
 mod noise;
 mod odd;
 mod skeleton;

@@ -3,7 +3,7 @@
 use super::build::{Build, LeafTruth, Piece};
 use super::textures;
 use super::{Recipe, Sample};
-use crate::{Leaf, Plant};
+use crate::{Axis, Leaf, OnBranch, Plant};
 use foliar_numerics::{fibonacci_sphere, radical_inverse};
 use foliar_schema::Role;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
@@ -63,7 +63,8 @@ fn card(petiole: Vec3, size: f32, turn: f64) -> Piece {
 }
 
 fn truth(piece: &Piece, coverage: f64) -> LeafTruth {
-    LeafTruth { coverage, petiole: piece.positions[0].midpoint(piece.positions[1]), group: None }
+    let petiole = piece.positions[0].midpoint(piece.positions[1]);
+    LeafTruth { coverage, petiole, group: None, on: OnBranch::NONE }
 }
 
 /// An open tube of eight sides, the trunk of most odd plants.
@@ -83,13 +84,21 @@ fn trunk(height: f32, radius: f64) -> Piece {
     Piece { positions, triangles, ..Piece::default() }
 }
 
+/// A trunk 2 m high and 0.2 m thick, the only branch.
+fn add_trunk(build: &mut Build, wood: usize) {
+    let piece = trunk(2.0, 0.1);
+    let points = (0..=4).map(|ring| DVec3::Y * (0.5 * f64::from(ring))).collect();
+    let rings: Vec<u32> = (0..piece.positions.len() as u32).map(|vertex| vertex / 8).collect();
+    build.branch(wood, &piece, &rings, &Axis::new(points, vec![0.1; 5]), None);
+}
+
 /// A trunk and a leaf part, with opaque or disc-shaped leaves.
 fn start(transform: DAffine3, alpha: bool) -> (Build, usize) {
     let mut build = Build::default();
     let bark = build.material("bark", None);
     let leaf = build.material("leaf", alpha.then(|| textures::disc(64)));
     let wood = build.part("trunk", Role::Wood, bark, transform);
-    build.piece(wood, &trunk(2.0, 0.1));
+    add_trunk(&mut build, wood);
     let leaves = build.part("leaves", Role::Leaf, leaf, transform);
     (build, leaves)
 }
@@ -100,7 +109,7 @@ fn cards(places: &[Vec3], size: f32, transform: DAffine3) -> Plant {
         let mut build = Build::default();
         let bark = build.material("bark", None);
         let wood = build.part("trunk", Role::Wood, bark, transform);
-        build.piece(wood, &trunk(2.0, 0.1));
+        add_trunk(&mut build, wood);
         return build.finish();
     }
     let (mut build, part) = start(transform, false);

@@ -36,6 +36,17 @@ pub struct Skeleton {
     pub chains: Vec<Chain>,
 }
 
+impl Skeleton {
+    /// For each chain the one that its fork stands on; none for the trunk. Parents stand first.
+    pub fn parents(&self) -> Vec<Option<u32>> {
+        let mut owner = vec![0; self.nodes.len()];
+        for (index, chain) in self.chains.iter().enumerate() {
+            chain.nodes.iter().skip(usize::from(index > 0)).for_each(|&node| owner[node] = index as u32);
+        }
+        self.chains.iter().enumerate().map(|(i, chain)| (i > 0).then(|| owner[chain.nodes[0]])).collect()
+    }
+}
+
 /// Grows the skeleton of a recipe.
 pub fn grow(recipe: &Recipe) -> Skeleton {
     let points = attractors(recipe);

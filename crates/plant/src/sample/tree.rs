@@ -83,8 +83,9 @@ impl Recipe {
         let coverage = picture.as_ref().map_or(vec![1.0], textures::coverage);
         let leaf = build.material("leaf", picture);
         let wood = build.part("wood", Role::Wood, bark, DAffine3::IDENTITY);
-        for chain in &skeleton.chains {
-            build.piece(wood, &tubes::tube(&skeleton, chain, self));
+        for (chain, parent) in skeleton.chains.iter().zip(skeleton.parents()) {
+            let (piece, rings, axis) = tubes::tube(&skeleton, chain, self);
+            build.branch(wood, &piece, &rings, &axis, parent);
         }
         let foliage = build.part("leaves", Role::Leaf, leaf, DAffine3::IDENTITY);
         for (piece, truth) in foliage::leaves(&skeleton, self, &coverage) {

@@ -3,15 +3,24 @@
 use super::build::Piece;
 use super::skeleton::{Chain, Skeleton};
 use super::tree::Recipe;
+use crate::Axis;
 use glam::{DVec3, Vec2};
 use std::f64::consts::TAU;
 
-/// The tube of a chain.
-pub fn tube(skeleton: &Skeleton, chain: &Chain, recipe: &Recipe) -> Piece {
+/// The tube of a chain, the ring of each of its vertices, and its axis.
+pub fn tube(skeleton: &Skeleton, chain: &Chain, recipe: &Recipe) -> (Piece, Vec<u32>, Axis) {
     let axis = axis(skeleton, chain);
+    let piece = around(&axis, chain, recipe);
+    let per_ring = piece.positions.len() as u32 / axis.len() as u32;
+    let rings = (0..piece.positions.len() as u32).map(|vertex| vertex / per_ring).collect();
+    let (points, radii) = axis.into_iter().unzip();
+    (piece, rings, Axis::new(points, radii))
+}
+
+fn around(axis: &[(DVec3, f64)], chain: &Chain, recipe: &Recipe) -> Piece {
     let sides = sides(axis[0].1, recipe);
     let root = chain.nodes[0] == 0;
-    let frames = frames(&axis);
+    let frames = frames(axis);
     let around = TAU * axis[0].1;
     let repeats = (around / BARK_M).round().max(1.0);
     let mut piece = Piece::default();

@@ -1,0 +1,80 @@
+//! Branches -> layer `branches`: ids on wood, table `foliarBranch`, and the column of leaves that names theirs.
+
+use super::VERSION;
+use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
+use foliar_plant::{Base, Branch, Branches, NO_BRANCH, OnBranch, Structure};
+use foliar_schema::{Record, Role, names};
+use glam::Vec3;
+use serde_json::Map;
+use std::collections::BTreeMap;
+
+/// The layer of a plant's branches. `structure` is the content hash of the layer that they were found with;
+/// `given` and `resolved` of the record are left empty. Where there are no branches the layer is empty.
+pub fn to_layer(branches: &Branches, base: &Base, facts: &Structure, structure: &str) -> Layer {
+    let mut attributes = BTreeMap::new();
+    let wood =
+        base.parts.iter().zip(&facts.roles).zip(&branches.vertices).filter(|((_, role), _)| **role == Role::Wood);
+    for ((part, _), list) in wood.filter(|_| branches.count() > 0) {
+        let key = AttributeKey { place: part.place, name: names::BRANCH_ID.into() };
+        attributes.insert(key, Array::scalars(ids(list, part.positions.len(), branches.count())));
+    }
+    let columns = if branches.count() == 0 { BTreeMap::new() } else { columns(branches) };
+    let mut writes: Vec<String> = columns.keys().map(|k| format!("{}/{}", k.class, k.property)).collect();
+    if !attributes.is_empty() {
+        writes.push(names::BRANCH_ID.into());
+    }
+    writes.sort();
+    let reads = [("base", foliar_bake::base_hash(base)), (names::ROOM_STRUCTURE, structure.to_string())];
+    let record = Record {
+        room: names::ROOM_BRANCHES.into(),
+        version: VERSION,
+        given: Map::new(),
+        resolved: Map::new(),
+        reads: reads.map(|(name, hash)| (name.to_string(), hash)).into(),
+        writes,
+        errors: Vec::new(),
+        facts: Map::new(),
+        more: Map::new(),
+    };
+    Layer { record, attributes, columns, roles: BTreeMap::new() }
+}
+
+fn ids(list: &[OnBranch], vertices: usize, null: usize) -> Vec<f32> {
+    let id = |place: &OnBranch| if place.branch == NO_BRANCH { null as f32 } else { place.branch as f32 };
+    if list.is_empty() { vec![null as f32; vertices] } else { list.iter().map(id).collect() }
+}
+
+/// -1 where there is none.
+fn signed(branch: u32) -> i32 {
+    if branch == NO_BRANCH { -1 } else { branch as i32 }
+}
+
+fn columns(branches: &Branches) -> BTreeMap<ColumnKey, Array> {
+    let rows = &branches.rows;
+    let vectors = |get: fn(&Branch) -> Vec3| Array::vectors(&rows.iter().map(get).collect::<Vec<_>>());
+    let scalars = |get: fn(&Branch) -> f32| Array::scalars(rows.iter().map(get).collect());
+    let integers = |get: fn(&Branch) -> i32| Array::integers(rows.iter().map(get).collect());
+    let chain = Array::I32 { width: 4, data: rows.iter().flat_map(|b| b.chain.map(signed)).collect() };
+    let mut columns: BTreeMap<ColumnKey, Array> = [
+        ("parent", integers(|b| signed(b.parent))),
+        ("level", integers(|b| b.level as i32)),
+        ("chain", chain),
+        ("pivot", vectors(|b| b.pivot)),
+        ("direction", vectors(|b| b.direction)),
+        ("length", scalars(|b| b.length)),
+        ("radius", scalars(|b| b.radius)),
+        ("margin", scalars(|b| b.margin)),
+    ]
+    .into_iter()
+    .map(|(name, array)| (key(names::CLASS_BRANCH, name), array))
+    .collect();
+    if !branches.leaves.is_empty() {
+        let of_leaf = branches.leaves.iter().map(|place| signed(place.branch)).collect();
+        columns.insert(key(names::CLASS_LEAF, "branch"), Array::integers(of_leaf));
+    }
+    columns
+}
+
+fn key(class: &str, property: &str) -> ColumnKey {
+    ColumnKey { class: class.into(), property: property.into() }
+}
