@@ -145,11 +145,13 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
     }
     if wants_ambient && params.ambient == AmbientTerm::Luft {
         let reference = reference_density(foliage, params);
-        let field = Field::new(&foliage.generators, foliage.radius);
-        let densities = field.densities(&places.queries);
+        let field = Field::new(foliage.own(), foliage.radius);
+        let mut densities = field.densities(&places.queries);
+        let around = Field::new(&foliage.neighbors_near(&places.queries), foliage.radius);
+        around.add_to(&mut densities, &places.queries);
         values.ambient = densities.par_iter().map(|&s| luft_ambient(f64::from(s), reference, params) as f32).collect();
         values.reference = Some(reference);
-        values.errors.push(measure::luft(&field, &places.queries, &values.ambient, reference, params));
+        values.errors.push(measure::luft(&[&field, &around], &places.queries, &values.ambient, reference, params));
     }
     values
 }

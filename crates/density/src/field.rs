@@ -69,6 +69,14 @@ impl Field {
         self.evaluate::<false>(queries).iter().map(|s| s.density).collect()
     }
 
+    /// Adds the density at each query to what is there. A sum of two fields, each summed by itself, never
+    /// falls where balls are added to the second, and keeps its bits where they do not reach.
+    pub(crate) fn add_to(&self, densities: &mut [f32], queries: &[Query]) {
+        if !self.grid.is_empty() {
+            densities.iter_mut().zip(self.densities(queries)).for_each(|(sum, more)| *sum += more);
+        }
+    }
+
     /// Density at one place in f64, over the same balls.
     pub fn exact_density(&self, query: &Query) -> f64 {
         self.grid.exact(query.position * self.inverse, query.skip)

@@ -1,12 +1,14 @@
 //! Leaves to balls (Luft07 section 3): one ball per leaf, weighted by area; several for a leaf that is
 //! larger than the radius of influence.
 
+use crate::field::Query;
 use crate::params::{GeneratorKind, Params};
 use crate::tessellate::Spread;
 use foliar_bake::{Inputs, Placed};
 use foliar_numerics::CompensatedSum;
 use foliar_plant::Plant;
 use glam::DVec3;
+use std::cmp::Ordering;
 
 /// The group of a query that leaves nothing out.
 pub const NO_GROUP: u32 = u32::MAX;
@@ -31,6 +33,8 @@ pub struct Foliage {
     pub generators: Vec<Generator>,
     /// How many are the plant's own.
     pub own: usize,
+    /// Number of balls of each neighbor.
+    stands: Vec<usize>,
     /// Radius of influence, meters.
     pub radius: f64,
     /// Mean area of the leaves that have area, m^2.
@@ -56,19 +60,24 @@ const MOST_FOR_LEAF_SIZE: f64 = 0.4;
 const EDGE_PER_EXTENT: f64 = std::f64::consts::SQRT_2;
 
 impl Foliage {
-    /// The balls that a plant and its neighbors make.
-    pub fn new(plant: &Plant, inputs_neighbors: &[Placed], params: &Params) -> Foliage {
+    /// The balls that a plant and its neighbors make; the order of the neighbors does not matter.
+    pub fn new(plant: &Plant, neighbors: &[Placed], params: &Params) -> Foliage {
         let extents = extents(plant);
         let radius = clamp_radius(params.radius_m.unwrap_or_else(|| automatic_radius(plant, &extents)), plant);
         let with_area = plant.leaves().iter().filter(|leaf| leaf.area > 0.0).count().max(1);
         let total: CompensatedSum = plant.leaves().iter().map(|leaf| f64::from(leaf.area)).collect();
         let mean_area = total.value() / with_area as f64;
-        let mut foliage = Foliage { generators: Vec::new(), own: 0, radius, mean_area, extents };
-        foliage.add(plant, params.generators, None);
+        let mut foliage = Foliage { generators: Vec::new(), own: 0, stands: Vec::new(), radius, mean_area, extents };
+        foliage.generators = foliage.balls(plant, &foliage.extents, params.generators, None);
         foliage.own = foliage.generators.len();
-        for neighbor in inputs_neighbors {
-            foliage.add(&neighbor.plant, params.generators, Some((neighbor, plant.center())));
-        }
+        let stand = |neighbor: &Placed| {
+            let own_extents = self::extents(&neighbor.plant);
+            foliage.balls(&neighbor.plant, &own_extents, params.generators, Some((neighbor, plant.center())))
+        };
+        let mut stands: Vec<Vec<Generator>> = neighbors.iter().map(stand).collect();
+        stands.sort_by(|a, b| a.len().cmp(&b.len()).then_with(|| before(a, b)));
+        foliage.stands = stands.iter().map(Vec::len).collect();
+        foliage.generators.extend(stands.into_iter().flatten());
         foliage
     }
 
@@ -77,16 +86,44 @@ impl Foliage {
         &self.generators[..self.own]
     }
 
+    /// The balls of each neighbor.
+    pub fn stands(&self) -> impl Iterator<Item = &[Generator]> {
+        let mut rest = &self.generators[self.own..];
+        self.stands.iter().map(move |&count| {
+            let (stand, others) = rest.split_at(count);
+            rest = others;
+            stand
+        })
+    }
+
+    /// The neighbors' balls that reach into the box around these places.
+    pub fn neighbors_near(&self, places: &[Query]) -> Vec<Generator> {
+        let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let grow = |(low, high): (DVec3, DVec3), query: &Query| (low.min(query.position), high.max(query.position));
+        let (low, high) = places.iter().fold(none, grow);
+        let reach = DVec3::splat(self.radius);
+        let near =
+            |ball: &&Generator| ball.position.cmpge(low - reach).all() && ball.position.cmple(high + reach).all();
+        self.generators[self.own..].iter().filter(near).copied().collect()
+    }
+
     /// Whether a leaf needs more than one ball, and values at its vertices rather than at its center.
     pub fn is_large(&self, leaf: u32) -> bool {
         EDGE_PER_EXTENT * self.extents[leaf as usize] > self.radius
     }
 
-    fn add(&mut self, plant: &Plant, kind: GeneratorKind, neighbor: Option<(&Placed, DVec3)>) {
-        let extents = if neighbor.is_some() { extents(plant) } else { std::mem::take(&mut self.extents) };
+    /// The balls of one plant, and of a neighbor where it stands relative to the center of the plant.
+    fn balls(
+        &self,
+        plant: &Plant,
+        extents: &[f64],
+        kind: GeneratorKind,
+        neighbor: Option<(&Placed, DVec3)>,
+    ) -> Vec<Generator> {
         let scale = neighbor.map_or(1.0, |(n, _)| libm::cbrt(n.transform.matrix3.determinant().abs()));
         let is_large = |leaf: usize| EDGE_PER_EXTENT * extents[leaf] * scale > self.radius;
         let spread = Spread::new(plant, &is_large, self.radius / scale);
+        let mut balls = Vec::with_capacity(plant.leaves().len());
         for (id, leaf) in plant.leaves().iter().enumerate() {
             let weight = match kind {
                 _ if leaf.area <= 0.0 => continue,
@@ -101,13 +138,21 @@ impl Foliage {
                         (n.transform.transform_point3(*position + plant.center()) - center, NEIGHBOR_GROUP)
                     }
                 };
-                self.generators.push(Generator { position, weight: (weight * share) as f32, group });
+                balls.push(Generator { position, weight: (weight * share) as f32, group });
             }
         }
-        if neighbor.is_none() {
-            self.extents = extents;
-        }
+        balls
     }
+}
+
+/// An order of two lists of as many balls that depends on where they are only.
+fn before(a: &[Generator], b: &[Generator]) -> Ordering {
+    let order = |(a, b): (&Generator, &Generator)| {
+        let (p, q) = (a.position, b.position);
+        let along = p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z));
+        along.then(a.weight.total_cmp(&b.weight))
+    };
+    a.iter().zip(b).map(order).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
 /// The balls that `inputs` make; `None` without a plant or without leaves.

@@ -105,6 +105,11 @@ impl Grid {
         Grid { rows, balls }
     }
 
+    /// Whether no ball has any weight.
+    pub fn is_empty(&self) -> bool {
+        self.balls.is_empty()
+    }
+
     /// Collects what is within reach of the box `low..high` (radii), relative to `origin`.
     pub fn near(&self, low: DVec3, high: DVec3, origin: DVec3, near: &mut Near) {
         near.balls.clear();

@@ -24,16 +24,16 @@ fn sample(count: usize, most: usize) -> Vec<usize> {
     (0..places).map(|i| i * count / places).collect()
 }
 
-/// Error of k_a (Luft07 eq. 4) against f64 sums.
+/// Error of k_a (Luft07 eq. 4), the density a sum of `fields`, against f64 sums.
 pub(crate) fn luft(
-    field: &Field,
+    fields: &[&Field],
     queries: &[Query],
     ambient: &[f32],
     reference: f64,
     params: &Params,
 ) -> MeasuredError {
-    let error =
-        |&at: &usize| f64::from(ambient[at]) - luft_ambient(field.exact_density(&queries[at]), reference, params);
+    let density = |at: usize| fields.iter().map(|field| field.exact_density(&queries[at])).sum();
+    let error = |&at: &usize| f64::from(ambient[at]) - luft_ambient(density(at), reference, params);
     let errors: Vec<f64> = sample(queries.len(), PLACES).par_iter().map(error).collect();
     measured(names::AMBIENT, errors)
 }

@@ -17,48 +17,79 @@ const MOST_POINTS: usize = 1 << 20;
 /// Up to so many pairs of balls and queries, chords are summed one by one: exact, and no slower.
 const MOST_PAIRS: usize = 400_000;
 
-/// A crown as an absorbing medium, ready to be asked.
+/// A crown and its neighbors as absorbing media, ready to be asked.
 #[derive(Debug)]
 pub struct Sky {
-    lattice: Lattice,
-    /// Balls in radii of the medium, the plant's own first and sorted by group.
-    balls: Vec<Generator>,
-    own: usize,
+    crown: Medium,
+    /// Each with a lattice of its own: how finely the crown is seen does not depend on what stands around it.
+    neighbors: Vec<Medium>,
+    /// Optical depth of one unit of the crown's chords.
     scale: f64,
 }
 
 impl Sky {
     /// Prepares a crown. `points_per_radius` of the lattice set the error.
     pub fn new(foliage: &Foliage, points_per_radius: f64) -> Sky {
-        let lattice = Lattice::around(&foliage.generators, foliage.radius, points_per_radius, MOST_POINTS);
-        let scale = extinction(foliage.mean_area, lattice.radius);
-        let mut balls = foliage.generators.clone();
-        balls.iter_mut().for_each(|ball| ball.position /= lattice.radius);
-        balls[..foliage.own].sort_by_key(|ball| ball.group);
-        Sky { lattice, balls, own: foliage.own, scale }
+        let medium = |balls: &[Generator]| Medium::new(balls, foliage.radius, points_per_radius);
+        let (crown, neighbors) = (medium(foliage.own()), foliage.stands().map(medium).collect());
+        let scale = extinction(foliage.mean_area, crown.lattice.radius);
+        Sky { crown, neighbors, scale }
     }
 
-    /// Radius of the balls of the medium, meters: the radius of influence, or more where the lattice
+    /// Radius of the balls of the crown's medium, meters: the radius of influence, or more where the lattice
     /// would take too much memory.
     pub fn radius(&self) -> f64 {
-        self.lattice.radius
+        self.crown.lattice.radius
     }
 
     /// The sky at each query.
     pub fn samples(&self, queries: &[Query]) -> Vec<SkySample> {
         let directions = sky_directions();
-        let depths: Vec<Vec<f32>> = if self.balls.len().saturating_mul(queries.len()) <= MOST_PAIRS {
-            directions.par_iter().map(|toward| self.summed_depths(queries, *toward)).collect()
-        } else {
-            let density = self.lattice.splat(&self.balls);
-            let own: Vec<&[Generator]> = queries.par_iter().map(|query| self.group(query.skip)).collect();
-            directions.par_iter().map(|toward| self.swept_depths(&density, queries, &own, *toward)).collect()
-        };
+        let mut depths = vec![vec![0.0f32; queries.len()]; directions.len()];
+        self.crown.add_depths(&directions, queries, 1.0, &mut depths);
+        for neighbor in &self.neighbors {
+            // Extinction goes with one over the square of the radius.
+            let share = (self.radius() / neighbor.lattice.radius).powi(2) as f32;
+            neighbor.add_depths(&directions, queries, share, &mut depths);
+        }
         let sample = |(index, query): (usize, &Query)| {
             let depths = std::array::from_fn(|d| self.scale * f64::from(depths[d][index]));
             see(&depths, &directions, query.position)
         };
         queries.par_iter().enumerate().map(sample).collect()
+    }
+}
+
+/// The balls of one plant.
+#[derive(Debug)]
+struct Medium {
+    lattice: Lattice,
+    /// In radii of the medium, sorted by group.
+    balls: Vec<Generator>,
+}
+
+impl Medium {
+    fn new(balls: &[Generator], radius: f64, points_per_radius: f64) -> Medium {
+        let lattice = Lattice::around(balls, radius, points_per_radius, MOST_POINTS);
+        let mut balls = balls.to_vec();
+        balls.iter_mut().for_each(|ball| ball.position /= lattice.radius);
+        balls.sort_by_key(|ball| ball.group);
+        Medium { lattice, balls }
+    }
+
+    /// Adds the depths toward each direction, times `share`, to what is there.
+    fn add_depths(&self, directions: &[DVec3], queries: &[Query], share: f32, depths: &mut [Vec<f32>]) {
+        let add = |all: &mut Vec<f32>, more: Vec<f32>| {
+            all.iter_mut().zip(more).for_each(|(sum, depth)| *sum += share * depth);
+        };
+        let pairs = depths.par_iter_mut().zip(directions);
+        if self.balls.len().saturating_mul(queries.len()) <= MOST_PAIRS {
+            pairs.for_each(|(all, toward)| add(all, self.summed_depths(queries, *toward)));
+        } else {
+            let density = self.lattice.splat(&self.balls);
+            let own: Vec<&[Generator]> = queries.par_iter().map(|query| self.group(query.skip)).collect();
+            pairs.for_each(|(all, toward)| add(all, self.swept_depths(&density, queries, &own, *toward)));
+        }
     }
 
     /// Depths toward one direction, before the extinction's scale: chords of all balls.
@@ -84,11 +115,10 @@ impl Sky {
         queries.iter().zip(own).map(depth).collect()
     }
 
-    /// Own balls of a group.
+    /// The balls of a group.
     fn group(&self, group: u32) -> &[Generator] {
-        let own = &self.balls[..self.own];
-        let start = own.partition_point(|ball| ball.group < group);
-        let count = own[start..].partition_point(|ball| ball.group == group);
-        &own[start..start + count]
+        let start = self.balls.partition_point(|ball| ball.group < group);
+        let count = self.balls[start..].partition_point(|ball| ball.group == group);
+        &self.balls[start..start + count]
     }
 }
