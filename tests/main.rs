@@ -14,6 +14,7 @@ mod import;
 mod inspect;
 mod laws;
 mod layers;
+mod moving;
 mod plants;
 mod streams;
 mod view;

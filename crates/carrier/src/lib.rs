@@ -150,7 +150,8 @@ pub fn check_layer(layer: &Layer, base_hash: &str) -> Result<(), CarrierError> {
 
 /// The bytes of a document at `path`, by its ending: `.gltf` gives `STEM.bin` and the JSON after it,
 /// anything else one GLB. The last file is the commit. Relative URIs are rebased to the folder of `path`;
-/// pictures that a GLB would have to climb out of that folder for join its buffer.
+/// pictures that it would have to climb out of that folder for join its buffer, and further buffers become
+/// data URIs: what is written can be read where it lies. A `.gltf` that stays in its folder keeps its URIs.
 ///
 /// # Errors
 /// [`CarrierError`] where a URI cannot be rebased.

@@ -23,7 +23,9 @@ pub enum Step {
 /// The files of a document at `path`.
 pub(crate) fn encode(document: &Document, path: &Path) -> Result<Vec<OutputFile>, CarrierError> {
     let is_gltf = rebase::is_gltf(path);
-    let mut document = if is_gltf { document.clone() } else { pictures::take_along(document, path)? };
+    // A .gltf that stays in its folder names its pictures as it did, wherever they lie.
+    let stays = is_gltf && !rebase::moves(document, path);
+    let mut document = if stays { document.clone() } else { pictures::take_along(document, path)? };
     rebase::move_to(&mut document, path)?;
     if !is_gltf {
         return Ok(vec![OutputFile { path: path.into(), bytes: glb(document, &path.display().to_string())? }]);
@@ -36,7 +38,8 @@ pub(crate) fn encode(document: &Document, path: &Path) -> Result<Vec<OutputFile>
         files.push(OutputFile { path: bin, bytes: std::mem::take(&mut document.buffers[0]) });
     }
     for index in 1..document.buffers.len() {
-        if document.json["buffers"][index].get("uri").is_none() {
+        let uri = document.json["buffers"][index].get("uri").and_then(Value::as_str);
+        if uri.is_none_or(|uri| !stays && uri.starts_with("..")) {
             let uri = data_uri(&document.buffers[index]);
             set_uri(&mut document.json, index, Some(uri));
         }

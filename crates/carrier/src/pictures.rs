@@ -1,5 +1,5 @@
-//! Pictures that a GLB takes along: where it is written to another folder, those that it would have to
-//! climb out of that folder for become part of its buffer, since readers (ours too) refuse such paths,
+//! Pictures that a document takes along: where it is written to another folder, those that it would have
+//! to climb out of that folder for become part of its buffer, since readers (ours too) refuse such paths,
 //! and data URIs in a GLB make validators warn. Layers are lifted off meanwhile, so that the pictures
 //! lie in the base and a later strip still finds it whole.
 
@@ -15,7 +15,7 @@ struct Picture {
     bytes: Vec<u8>,
 }
 
-/// The document as it goes into a GLB at `path`.
+/// The document as it goes to `path`.
 pub(crate) fn take_along(document: &Document, path: &Path) -> Result<Document, CarrierError> {
     let pictures: Vec<Picture> = rebase::outside(document, path)
         .into_iter()

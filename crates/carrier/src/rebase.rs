@@ -59,6 +59,12 @@ pub(crate) fn is_gltf(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf"))
 }
 
+/// Whether a document that is written to `path` leaves the folder that its URIs start from.
+pub(crate) fn moves(document: &Document, path: &Path) -> bool {
+    let to = absolute(path.parent().unwrap_or(Path::new("")));
+    document.folder.as_deref().is_some_and(|from| absolute(from) != to)
+}
+
 /// Images whose files lie outside the folder of `path`: index and file.
 pub(crate) fn outside(document: &Document, path: &Path) -> Vec<(usize, PathBuf)> {
     let Some(from) = document.folder.as_deref().map(absolute) else { return Vec::new() };

@@ -131,10 +131,12 @@ fn loose_textures(meshes: &[Mesh], file: &ObjFile, source: &Source) -> Result<Ve
                 format!("name one of {known:?}"),
             ));
         }
-        // A person's own path counts from the current folder, or from the asset's.
-        let path = Path::new(path);
-        let beside = source.folder.join(path);
-        loose.push((part.to_string(), if path.is_file() { path.to_path_buf() } else { beside }));
+        // A person's own path may lead anywhere; it counts from the current folder, or from the asset's.
+        let candidates = [PathBuf::from(path), source.folder.join(path)];
+        let Some(found) = candidates.iter().find(|candidate| candidate.is_file()) else {
+            return Err(refuse(&format!("--texture {given:?}: there is no such file"), "name a picture".into()));
+        };
+        loose.push((part.to_string(), found.clone()));
     }
     Ok(loose)
 }
