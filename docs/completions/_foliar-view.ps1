@@ -34,7 +34,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-view' -ScriptBlock {
             [CompletionResult]::new('--wood', '--wood', [CompletionResultType]::ParameterName, 'Parts that are wood.')
             [CompletionResult]::new('--other', '--other', [CompletionResultType]::ParameterName, 'Parts that are no plant.')
             [CompletionResult]::new('--width-px', '--width-px', [CompletionResultType]::ParameterName, 'Width of the picture in pixels. [pixels, at least 16, at most 8192, default 960]')
-            [CompletionResult]::new('--height-px', '--height-px', [CompletionResultType]::ParameterName, 'Height of the picture in pixels. [pixels, at least 16, at most 8192, default 720]')
+            [CompletionResult]::new('--height-px', '--height-px', [CompletionResultType]::ParameterName, 'Height of the picture in pixels; the legend of false colors stands below and adds to it. [pixels, at least 16, at most 8192, default 720]')
             [CompletionResult]::new('--samples', '--samples', [CompletionResultType]::ParameterName, 'Rays per pixel. [at least 1, at most 1024, default 16]')
             [CompletionResult]::new('--look', '--look', [CompletionResultType]::ParameterName, 'How the tree is lit, where no channel is asked for. [default "baked"]')
             [CompletionResult]::new('--channel', '--channel', [CompletionResultType]::ParameterName, 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.')

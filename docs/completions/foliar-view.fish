@@ -12,7 +12,7 @@ complete -c foliar-view -l leaf -d 'Parts that are leaves.' -r
 complete -c foliar-view -l wood -d 'Parts that are wood.' -r
 complete -c foliar-view -l other -d 'Parts that are no plant.' -r
 complete -c foliar-view -l width-px -d 'Width of the picture in pixels. [pixels, at least 16, at most 8192, default 960]' -r
-complete -c foliar-view -l height-px -d 'Height of the picture in pixels. [pixels, at least 16, at most 8192, default 720]' -r
+complete -c foliar-view -l height-px -d 'Height of the picture in pixels; the legend of false colors stands below and adds to it. [pixels, at least 16, at most 8192, default 720]' -r
 complete -c foliar-view -l samples -d 'Rays per pixel. [at least 1, at most 1024, default 16]' -r
 complete -c foliar-view -l look -d 'How the tree is lit, where no channel is asked for. [default "baked"]' -r -f -a "plain\t'As the file came: its own normals, the same ambient light everywhere.'
 baked\t'With what was baked: realigned normals, ambient coefficient.'

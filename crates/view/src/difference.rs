@@ -33,12 +33,11 @@ pub fn difference(a: &RgbaImage, b: &RgbaImage) -> Result<Difference, ViewError>
     let steps: Vec<f32> = a.pixels().zip(b.pixels()).map(|(a, b)| lightness(b) - lightness(a)).collect();
     let color = |&step: &f32| colors::to_bytes(colors::diverging(step / SCALE_STEPS), 1.0);
     let bytes = steps.iter().flat_map(color).collect();
-    let mut picture = RgbaImage::from_raw(a.width(), a.height(), bytes).unwrap_or_default();
-    legend::draw(&mut picture, &words());
+    let picture = RgbaImage::from_raw(a.width(), a.height(), bytes).unwrap_or_default();
     let changed: Vec<f64> = steps.iter().map(|s| f64::from(s.abs())).filter(|&s| s >= 1.0).collect();
     let sum = changed.iter().copied().collect::<CompensatedSum>().value();
     Ok(Difference {
-        picture,
+        picture: legend::below(picture, &words()),
         mean_steps: sum / changed.len().max(1) as f64,
         max_steps: changed.iter().copied().fold(0.0, f64::max),
         share: changed.len() as f64 / steps.len().max(1) as f64,

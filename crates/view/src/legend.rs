@@ -1,4 +1,4 @@
-//! The legend in the lower left corner: name, unit, colors with their numbers.
+//! The legend below a picture: name, unit, colors with their numbers.
 
 use crate::colors;
 use crate::text::{self, SMALL, number};
@@ -6,45 +6,41 @@ use crate::values::{Key, Legend};
 use glam::Vec3;
 use image::{Rgba, RgbaImage};
 
-/// Free pixels around the legend and inside it.
+/// Free pixels around the legend.
 const PAD: u32 = 10;
 /// Size of the bar of colors, pixels.
 pub(crate) const BAR: [u32; 2] = [256, 16];
 
-/// Where the bar's left upper corner lies in a picture of this height.
+/// Behind the legend.
+const PAPER: Rgba<u8> = Rgba([28, 28, 30, 255]);
+
+/// Where the bar's left upper corner lies in a picture of this height, its legend counted in.
 pub(crate) fn bar_corner(height: u32) -> [u32; 2] {
-    [2 * PAD, height.saturating_sub(2 * PAD + text::height(SMALL) + 4 + BAR[1])]
+    [PAD, height.saturating_sub(PAD + text::height(SMALL) + 4 + BAR[1])]
 }
 
-/// Draws the legend over the picture; nothing where the picture is too small to hold one.
-pub(crate) fn draw(picture: &mut RgbaImage, legend: &Legend) {
+/// The picture with its legend on a strip of its own below, where it hides nothing; unchanged where it is
+/// too narrow to hold one.
+pub(crate) fn below(picture: RgbaImage, legend: &Legend) -> RgbaImage {
+    let (width, top) = picture.dimensions();
+    if width < BAR[0] + 2 * PAD {
+        return picture;
+    }
     let line = text::height(SMALL) + 4;
     let unit = if legend.unit.is_empty() || legend.unit == "1" { String::new() } else { format!(" [{}]", legend.unit) };
-    let title = text::wrapped(SMALL, &format!("{}{unit}", legend.name), BAR[0]);
-    let doc = text::wrapped(SMALL, &legend.doc, BAR[0]);
+    let title = text::wrapped(SMALL, &format!("{}{unit}", legend.name), width - 2 * PAD);
+    let doc = text::wrapped(SMALL, &legend.doc, width - 2 * PAD);
     let head = (title.len() + doc.len()) as u32 * line;
-    let height = head + BAR[1] + line;
-    if picture.width() < BAR[0] + 4 * PAD || picture.height() < height + 4 * PAD {
-        return;
-    }
-    let [x, bar_y] = bar_corner(picture.height());
-    panel(picture, PAD, bar_y - head - PAD, BAR[0] + 2 * PAD, height + 2 * PAD);
+    let mut whole = RgbaImage::from_pixel(width, top + PAD + head + BAR[1] + line + PAD, PAPER);
+    image::imageops::replace(&mut whole, &picture, 0, 0);
     let lines = title.iter().map(|words| (words, 255)).chain(doc.iter().map(|words| (words, 190)));
     for (row, (words, gray)) in (0u32..).zip(lines) {
-        text::write(picture, SMALL, i64::from(x), i64::from(bar_y - head + row * line), words, gray);
+        text::write(&mut whole, SMALL, i64::from(PAD), i64::from(top + PAD + row * line), words, gray);
     }
-    bar(picture, legend, x, bar_y);
-    numbers(picture, &legend.kind, x, bar_y + BAR[1] + 4);
-}
-
-/// Darkens a rectangle so that light letters stand on it.
-fn panel(picture: &mut RgbaImage, x: u32, y: u32, width: u32, height: u32) {
-    for row in y..(y + height).min(picture.height()) {
-        for column in x..(x + width).min(picture.width()) {
-            let Rgba([r, g, b, a]) = *picture.get_pixel(column, row);
-            picture.put_pixel(column, row, Rgba([r / 4, g / 4, b / 4, a.max(192)]));
-        }
-    }
+    let [x, y] = bar_corner(whole.height());
+    bar(&mut whole, legend, x, y);
+    numbers(&mut whole, &legend.kind, x, y + BAR[1] + 4);
+    whole
 }
 
 fn bar(picture: &mut RgbaImage, legend: &Legend, x: u32, y: u32) {

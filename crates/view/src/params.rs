@@ -53,7 +53,7 @@ pub struct ViewParams {
     /// Width of the picture in pixels.
     #[schemars(range(min = 16, max = 8192))]
     pub width_px: u32,
-    /// Height of the picture in pixels.
+    /// Height of the picture in pixels; the legend of false colors stands below and adds to it.
     #[schemars(range(min = 16, max = 8192))]
     pub height_px: u32,
     /// Rays per pixel.

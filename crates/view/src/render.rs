@@ -29,7 +29,8 @@ const GROUND_RADIUS: f32 = 1.5 * PLANT_EDGE as f32;
 /// - Light: sun with shadow, even sky times the ambient coefficient (1 where none was baked), half of
 ///   the sun's light on the back of a leaf shines through it. Below 0.6 tone mapping changes nothing.
 /// - [`Shading::Stock`] is lit by what a viewer knows that never heard of foliar, see [`crate::Look::Stock`].
-/// - False colors are not lit, so that they are the legend's.
+/// - False colors are not lit, so that they are those of the legend, which stands on a strip below: the picture is
+///   higher by that.
 ///
 /// The same bytes for any number of threads.
 ///
@@ -46,11 +47,11 @@ pub fn render(
     let camera = Camera::fit(scene.fitted.iter().copied(), params);
     let mask = Mask::new(&camera, &scene.triangles, params.width_px, params.height_px);
     let tracer = Tracer::new(&scene, camera, mask, params);
-    let mut picture = tracer.trace();
-    if let Some(words) = &scene.legend {
-        legend::draw(&mut picture, words);
-    }
-    Ok(picture)
+    let picture = tracer.trace();
+    Ok(match &scene.legend {
+        Some(words) => legend::below(picture, words),
+        None => picture,
+    })
 }
 
 struct Tracer<'a> {

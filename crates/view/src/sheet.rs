@@ -29,30 +29,33 @@ impl Panel {
     }
 }
 
-/// Panels in rows of `columns` (at least one) under title lines. Cells are as large as the largest
-/// picture; smaller ones stand in their middle; captions that do not fit are cut.
+/// Panels in rows of `columns` (at least one) under title lines. Columns are as wide as the widest picture, a row
+/// as high as its highest; lower ones stand at its top, so that pictures with and without a legend align;
+/// captions that do not fit are cut.
 pub fn contact_sheet(panels: &[Panel], titles: &[String], columns: usize) -> RgbaImage {
-    let columns = columns.clamp(1, panels.len().max(1)) as u32;
-    let rows = (panels.len() as u32).div_ceil(columns);
-    let largest = |size: fn(&RgbaImage) -> u32| panels.iter().map(|p| size(&p.picture)).max().unwrap_or(0);
-    let (cell_width, picture_height) = (largest(RgbaImage::width), largest(RgbaImage::height));
-    let cell_height = picture_height + text::height(SMALL) + 4;
+    let columns = columns.clamp(1, panels.len().max(1));
+    let cell_width = panels.iter().map(|p| p.picture.width()).max().unwrap_or(0);
+    let heights = panels.chunks(columns).map(|row| row.iter().map(|p| p.picture.height()).max().unwrap_or(0));
+    let heights: Vec<u32> = heights.collect();
+    let caption = text::height(SMALL) + 4;
     let head = GAP + titles.len() as u32 * (text::height(LARGE) + 4);
-    let width = (GAP + columns * (cell_width + GAP)).max(4 * GAP);
-    let mut sheet = RgbaImage::from_pixel(width, head + rows * (cell_height + GAP) + GAP, PAPER);
+    let width = (GAP + columns as u32 * (cell_width + GAP)).max(4 * GAP);
+    let height = head + heights.iter().map(|h| h + caption + GAP).sum::<u32>() + GAP;
+    let mut sheet = RgbaImage::from_pixel(width, height, PAPER);
     for (line, title) in titles.iter().enumerate() {
         let y = GAP + line as u32 * (text::height(LARGE) + 4);
         let words = text::fitted(LARGE, title, width - 2 * GAP);
         text::write(&mut sheet, LARGE, i64::from(GAP), i64::from(y), &words, if line == 0 { 255 } else { 190 });
     }
-    for (index, panel) in (0u32..).zip(panels) {
-        let x = GAP + index % columns * (cell_width + GAP);
-        let y = head + index / columns * (cell_height + GAP);
-        let aside = (cell_width - panel.picture.width()) / 2;
-        let down = (picture_height - panel.picture.height()) / 2;
-        image::imageops::overlay(&mut sheet, &panel.picture, i64::from(x + aside), i64::from(y + down));
-        let words = text::fitted(SMALL, &panel.caption, cell_width);
-        text::write(&mut sheet, SMALL, i64::from(x), i64::from(y + picture_height + 4), &words, 220);
+    let mut y = head;
+    for (row, height) in panels.chunks(columns).zip(heights) {
+        for (x, panel) in (GAP..).step_by((cell_width + GAP) as usize).zip(row) {
+            let aside = (cell_width - panel.picture.width()) / 2;
+            image::imageops::overlay(&mut sheet, &panel.picture, i64::from(x + aside), i64::from(y));
+            let words = text::fitted(SMALL, &panel.caption, cell_width);
+            text::write(&mut sheet, SMALL, i64::from(x), i64::from(y + height + 4), &words, 220);
+        }
+        y += height + caption + GAP;
     }
     sheet
 }
