@@ -13,8 +13,19 @@ pub struct Gate {
     pub what: String,
     /// Its unit; "1" for a ratio.
     pub unit: String,
-    /// Most that passes; no gate where nothing is said.
+    /// Most that passes; no gate where neither this nor `at_least` is said.
     pub at_most: Option<f64>,
+    /// Least that passes.
+    pub at_least: Option<f64>,
+}
+
+impl Gate {
+    /// Whether a measured value passes; not-a-number never does.
+    pub fn passes(&self, value: f64) -> bool {
+        !value.is_nan()
+            && self.at_most.is_none_or(|most| value <= most)
+            && self.at_least.is_none_or(|least| value >= least)
+    }
 }
 
 /// All gates by name.
