@@ -1,6 +1,7 @@
 //! What import and structure find in the shared trees, held against `expected.json` and the truth of
 //! the generators: every listed file, exactly, without a single pattern.
 
+use crate::expected_parts::wrong_parts;
 use foliar_carrier::Asset;
 use foliar_schema::{Finding, Import, Roles, Unit, Up};
 use foliar_structure::{Analysis, StructureParams, analyze, from_layer};
@@ -41,21 +42,9 @@ fn every_listed_file_comes_out_exactly() {
     let mut wrong = Vec::new();
     for (name, file) in listed(&trees) {
         let (_, analysis) = find(&trees.join(&name), &import(&file));
-        let parts = file["parts"].as_array().unwrap();
-        if parts.len() != analysis.parts.len() {
-            wrong.push(format!("{name}: {} parts, must be {}", analysis.parts.len(), parts.len()));
-        }
-        for part in parts {
-            let found = analysis.parts.iter().find(|p| part["part"] == p.name.as_str());
-            let right = found.is_some_and(|p| {
-                part["role"] == p.role.name()
-                    && part["triangles"] == p.triangles
-                    && (part["pieces"].is_null() || part["pieces"] == p.pieces)
-                    && part["crown_volume"].as_bool().unwrap_or(false) == p.crown_volume
-            });
-            if !right {
-                wrong.push(format!("{name}: {part}, found {found:?}"));
-            }
+        let deviations = wrong_parts(&file, &analysis.parts);
+        if !deviations.is_empty() {
+            wrong.push(format!("{name}: {}, found {:?}", deviations.join("; "), analysis.parts));
         }
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));

@@ -9,6 +9,7 @@ mod config;
 mod conventions;
 mod density;
 mod expected;
+mod expected_parts;
 mod generate;
 mod import;
 mod inspect;

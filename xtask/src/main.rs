@@ -4,6 +4,9 @@
 #[cfg(feature = "foliar")]
 mod bench;
 mod cli;
+#[cfg(feature = "foliar")]
+#[path = "../../tests/expected_parts.rs"]
+mod expected_parts;
 mod faults;
 mod fixtures;
 #[cfg(feature = "foliar")]

@@ -17,6 +17,8 @@ pub struct SharedTree {
     pub path: PathBuf,
     /// Flags that its notes give.
     pub import: Import,
+    /// What expected.json says of it.
+    pub expected: Value,
 }
 
 /// A tree that was read.
@@ -44,7 +46,12 @@ pub const LINDEN: &str = "linden";
 /// The linden of fixtures/.
 pub fn linden() -> SharedTree {
     let import = Import { up: Some(Up::Y), unit: Some(Unit::M), ..Import::default() };
-    SharedTree { name: LINDEN.into(), path: repo::root().join("fixtures/linden/linden.obj"), import }
+    SharedTree {
+        name: LINDEN.into(),
+        path: repo::root().join("fixtures/linden/linden.obj"),
+        import,
+        expected: Value::Null,
+    }
 }
 
 fn tree(name: &str, notes: &Value, path: PathBuf) -> Result<SharedTree> {
@@ -52,7 +59,12 @@ fn tree(name: &str, notes: &Value, path: PathBuf) -> Result<SharedTree> {
     let flag = |key: &str| notes[key].as_str().filter(|v| is_obj && *v != "none");
     let up = flag("up").map(|v| serde_json::from_value(v.into())).transpose()?;
     let unit = flag("unit").map(|v| serde_json::from_value(v.into())).transpose()?;
-    Ok(SharedTree { name: name.into(), path, import: Import { up, unit, ..Import::default() } })
+    Ok(SharedTree {
+        name: name.into(),
+        path,
+        import: Import { up, unit, ..Import::default() },
+        expected: notes.clone(),
+    })
 }
 
 impl SharedTree {

@@ -3,28 +3,69 @@
 
 use super::{Figure, density};
 use crate::shared_trees;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use foliar_bake::Layer;
 use foliar_density::crown_depth;
 use foliar_numerics::spearman;
 use foliar_plant::Plant;
 use foliar_schema::names;
+use serde_json::json;
 
 /// Trees with fewer leaves say little about ranks.
 const LEAST_LEAVES: usize = 500;
+/// Trees with fewer leaves need not have an inside.
+const LEAST_FOR_RIM: usize = 100;
+/// Steps of k_a that an eye may see, in 1.
+const STEPS: f64 = 255.0;
 
-/// The worst (greatest) correlation over all shared trees.
-pub fn worst() -> Result<Figure> {
-    let (mut worst, mut at) = (-1.0, Vec::new());
+/// The worst (greatest) correlation over the trees of leaves, by default.
+pub fn sky() -> Result<Figure> {
+    worst_correlation(false, "sky")
+}
+
+/// The same by eq. 4.
+pub fn luft() -> Result<Figure> {
+    worst_correlation(false, "luft")
+}
+
+/// The same over the crown volumes, by default.
+pub fn crown_volumes() -> Result<Figure> {
+    worst_correlation(true, "sky")
+}
+
+/// The least that the inside of a crown is darker than its rim.
+pub fn rim_less_inside() -> Result<Figure> {
+    let steps = |plant: &Plant, layer: &Layer| {
+        let (rim, inside) = rim_and_inside(plant, layer);
+        (rim - inside) * STEPS
+    };
+    over_trees(false, LEAST_FOR_RIM, "sky", f64::min, steps)
+}
+
+fn worst_correlation(crown_volumes: bool, ambient: &str) -> Result<Figure> {
+    let correlation = |plant: &Plant, layer: &Layer| of(plant, layer).unwrap_or(0.0);
+    over_trees(crown_volumes, LEAST_LEAVES, ambient, f64::max, correlation)
+}
+
+/// The worst of a figure over all shared trees with so many leaves (or rows sampled from crown volumes: these
+/// lie on one surface, and none deeper than another).
+fn over_trees(
+    crown_volumes: bool,
+    least: usize,
+    ambient: &str,
+    worse: fn(f64, f64) -> f64,
+    figure: impl Fn(&Plant, &Layer) -> f64,
+) -> Result<Figure> {
+    let (mut worst, mut at) = (f64::NAN, Vec::new());
     for tree in shared_trees::all()? {
         let plant = tree.read()?.plant;
-        // Rows of a crown volume are samples of one surface: none lies deeper than another.
-        if plant.leaves().iter().filter(|leaf| !leaf.crown_volume).count() < LEAST_LEAVES {
+        if plant.leaves().iter().filter(|leaf| leaf.crown_volume == crown_volumes).count() < least {
             continue;
         }
-        let correlation = of(&plant, &density::bake(&plant)?).unwrap_or(0.0);
-        worst = f64::max(worst, correlation);
-        at.push(format!("{} {correlation:.2}", tree.name));
+        let value = figure(&plant, &density::bake_as(&plant, json!({ "ambient": ambient }))?);
+        ensure!(!value.is_nan(), "{}: nothing to judge", tree.name);
+        worst = worse(worst, value);
+        at.push(format!("{} {value:.2}", tree.name));
     }
     Ok(Figure::new(worst, format!("none; {}", at.join(", "))))
 }

@@ -3,19 +3,25 @@
 use super::{Figure, allocations, least_seconds, missing};
 use crate::{repo, shared_trees};
 use anyhow::{Context, Result};
-use foliar_bake::{Inputs, Maps, Quiet, Request, run};
+use foliar_bake::{Inputs, Layer, Maps, Quiet, Request, run};
 use foliar_density::{Density, Field, Foliage, NO_GROUP, Params, Query, reference};
 use foliar_plant::{Plant, sample::Recipe};
 use glam::Vec3;
 use rayon::prelude::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::process::Command;
 
 /// Bakes a plant by default parameters.
-pub fn bake(plant: &Plant) -> Result<foliar_bake::Layer> {
+pub fn bake(plant: &Plant) -> Result<Layer> {
+    bake_as(plant, json!({}))
+}
+
+/// Bakes a plant by these parameters, an object.
+pub fn bake_as(plant: &Plant, given: Value) -> Result<Layer> {
     let maps = Maps::new();
     let inputs = Inputs { plant: Some(plant), maps: &maps, neighbors: &[] };
-    Ok(run(&Density, &inputs, &Request::default(), &Quiet)?.0)
+    let given = given.as_object().cloned().unwrap_or_default();
+    Ok(run(&Density, &inputs, &Request { given, ..Request::default() }, &Quiet)?.0)
 }
 
 /// Seconds of a whole bake of the benchmark tree.

@@ -4,7 +4,9 @@ mod allocations;
 mod calibration;
 pub mod correlation;
 pub mod density;
+mod expected;
 mod gates;
+mod oracle;
 mod programs;
 mod reading;
 
@@ -34,9 +36,15 @@ const MEASURES: &[Measure] = &[
     ("calibration-seconds", calibration::seconds),
     ("density-seconds", density::seconds),
     ("density-memory", density::memory),
+    ("expected-files", expected::files),
+    ("linden-leaves", expected::linden_leaves),
+    ("oracle-error", oracle::worst),
     ("field-error", density::field_error),
     ("gradient-error", density::gradient_error),
-    ("depth-correlation", correlation::worst),
+    ("depth-correlation", correlation::sky),
+    ("depth-correlation-luft", correlation::luft),
+    ("depth-correlation-crowns", correlation::crown_volumes),
+    ("rim-less-inside", correlation::rim_less_inside),
     ("bake-seconds", programs::bake),
     ("obj-parse-ratio", reading::parse),
     ("obj-read-ratio", reading::read),
@@ -74,7 +82,7 @@ fn with_calibration<'a>(mut chosen: Vec<&'a Measure>, gates: &BTreeMap<String, G
 /// Prints one figure; whether it passes.
 fn report(name: &str, gate: &Gate, figure: &Figure) -> bool {
     let passes = gate.passes(figure.value);
-    let unit = if gate.unit == "1" { "" } else { gate.unit.as_str() };
+    let unit = if gate.unit == "1" { String::new() } else { format!(" {}", gate.unit) };
     let bound = |words: &str, limit: f64| format!("{words} {}{unit}", digits(limit));
     let limit = match (gate.at_most, gate.at_least) {
         (Some(most), _) => bound("at most", most),
