@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::print_stderr, reason = "a test that cannot go on fails; a skipped one says so")]
 
 mod bad_input;
+mod bad_places;
 mod bake;
 mod common;
 mod config;

@@ -1,4 +1,4 @@
-//! Standard input and output, closed pipes, full disks, places that cannot be written.
+//! Standard input and output, closed pipes, places that cannot be written (disks: bad_places.rs).
 
 use crate::common::{FOLIAR, command, finish, folder, output, run, run_in, skip, text, tree, tree_text};
 use std::fs::File;
@@ -73,27 +73,4 @@ fn a_full_device_is_status_4() {
     let arguments = ["bake", text(&tree(here.path(), 40)), "-o", "-"].map(str::to_owned);
     let run = finish(command(FOLIAR).args(arguments).stdout(full).stderr(Stdio::piped()).output().unwrap());
     run.expect(4, &["standard output cannot be written"]);
-}
-
-#[test]
-fn a_full_disk_leaves_the_old_output() {
-    let here = folder();
-    let disk = here.path().join("disk");
-    std::fs::create_dir(&disk).unwrap();
-    let mount = std::process::Command::new("mount")
-        .args(["-t", "tmpfs", "-o", "size=64k", "tmpfs", text(&disk)])
-        .stderr(Stdio::null())
-        .status();
-    if !mount.is_ok_and(|status| status.success()) {
-        skip("a small tmpfs cannot be mounted here");
-        return;
-    }
-    let out = disk.join("tree.glb");
-    std::fs::write(&out, b"old").unwrap();
-    let run = run(FOLIAR, &["bake", text(&tree(here.path(), 2000)), "-o", text(&out)]);
-    let old = std::fs::read(&out).unwrap();
-    let left = std::fs::read_dir(&disk).unwrap().count();
-    std::process::Command::new("umount").arg(&disk).status().unwrap();
-    run.expect(4, &["tree.glb", "cannot be written"]);
-    assert_eq!((old.as_slice(), left), (&b"old"[..], 1));
 }

@@ -132,7 +132,7 @@ fn load(
     };
     match bytes {
         Ok(bytes) if matches!(images::sniff(&bytes), Format::Webp | Format::Ktx) => {
-            let message = "a WebP or KTX2 picture is not decoded by this version";
+            let message = "a WebP or KTX2 picture is not decoded by this version: convert it to PNG";
             findings.push(texture_finding(source, image, message));
             Ok(None)
         }

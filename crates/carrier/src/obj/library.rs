@@ -1,12 +1,15 @@
 //! Finding and reading the material libraries of an OBJ.
 
 use super::file::{Library, ObjFile};
-use super::mtl::{Material, parse_mtl};
+use super::mtl::{Contents, Material, parse_mtl};
 use super::scan::Oddity;
 use crate::{CarrierError, paths};
 use foliar_schema::{Finding, Import, code};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// What helps where a file beside the asset is missing.
+pub(crate) const BESIDE: &str = "put it beside the asset, or name its folder with --search";
 
 /// The asset that is being read: what messages call it, and where its files lie.
 #[derive(Clone, Copy, Debug)]
@@ -85,25 +88,29 @@ impl Libraries {
             return Ok(());
         }
         let missing = |why: String| {
-            let message =
-                format!("material library {:?} {why}; plain materials stand in for what it defines", path.display());
+            let message = format!("material library {:?} {why}; plain materials stand in", path.display());
             Finding::new(&code::IMPORT_MTL, message).at(format!("line {}", library.line)).in_file(source.name)
         };
         if !path.is_file() {
-            self.findings.push(missing("is missing".into()));
+            self.findings.push(missing(format!("is missing: {BESIDE}")));
             return Ok(());
         }
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                self.findings.push(missing(format!("cannot be read ({error})")));
+                self.findings.push(missing(format!("cannot be read ({error}): make it readable")));
                 return Ok(());
             }
         };
         self.files.push(path.to_path_buf());
-        let materials = parse_mtl(&bytes, &path.display().to_string())?;
+        let Contents { materials, nested } = parse_mtl(&bytes, &path.display().to_string())?;
         if materials.is_empty() {
-            self.findings.push(missing("defines no material".into()));
+            self.findings.push(missing("defines no material: export it again".into()));
+        }
+        for (name, line) in nested {
+            let message = format!("a library cannot name another: {name:?} is not read from here; name it in the OBJ");
+            let file = path.display().to_string();
+            self.findings.push(Finding::new(&code::IMPORT_MTL, message).at(format!("line {line}")).in_file(file));
         }
         for material in materials {
             self.report_unknown(&material, path);

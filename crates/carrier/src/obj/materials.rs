@@ -8,7 +8,7 @@
 
 use super::library::{Defined, Libraries, Source};
 use super::mtl::{Map, Material};
-use super::textures::Textures;
+use super::textures::{Named, Textures};
 use crate::CarrierError;
 use foliar_schema::{Finding, code};
 use serde_json::{Map as Object, Value, json};
@@ -116,12 +116,12 @@ impl<'a> Materials<'a> {
         let material = &defined.material;
         let name = wanted.name.as_deref().unwrap_or("");
         let color = match &wanted.loose {
-            Some(path) => Some(path.clone()),
-            None => self.path(material.map_kd.as_ref(), defined)?,
+            Some(path) => Some(Named { path: path.clone(), file: self.source.name.into(), place: "--texture".into() }),
+            None => self.named(material.map_kd.as_ref(), defined)?,
         };
-        let mask = self.path(material.map_d.as_ref(), defined)?;
-        let norm = self.path(material.norm.as_ref(), defined)?;
-        let bump = self.path(material.bump.as_ref(), defined)?;
+        let mask = self.named(material.map_d.as_ref(), defined)?;
+        let norm = self.named(material.norm.as_ref(), defined)?;
+        let bump = self.named(material.bump.as_ref(), defined)?;
         let any = [&color, &mask, &norm, &bump].into_iter().any(Option::is_some);
         if any && !wanted.has_uvs {
             let message = format!("material {name:?} has textures, but its faces have no texture coordinates");
@@ -131,7 +131,7 @@ impl<'a> Materials<'a> {
             return Ok(false);
         }
         let [color, mask, norm, bump] =
-            [color, mask, norm, bump].map(|path| path.filter(|p| self.textures.read(p, name)));
+            [color, mask, norm, bump].map(|named| named.filter(|n| self.textures.read(n, name)).map(|n| n.path));
         let factor = if color.is_some() { [1.0; 3] } else { material.kd.unwrap_or([1.0; 3]) };
         if let Some(image) = self.color_image(color, mask, name)? {
             self.set_color(made, image, factor);
@@ -143,8 +143,8 @@ impl<'a> Materials<'a> {
         Ok(normal.is_some())
     }
 
-    /// Path of a map, with a finding where it is moved or scaled.
-    fn path(&mut self, map: Option<&Map>, defined: &Defined) -> Result<Option<PathBuf>, CarrierError> {
+    /// Where the picture of a map lies, with a finding where it is moved or scaled.
+    fn named(&mut self, map: Option<&Map>, defined: &Defined) -> Result<Option<Named>, CarrierError> {
         let Some(map) = map else { return Ok(None) };
         if map.moved {
             let message = format!("{:?} is moved or scaled (-o, -s, -t): left out", map.file);

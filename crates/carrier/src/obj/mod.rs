@@ -21,7 +21,7 @@ mod text;
 mod textures;
 
 pub use file::{Library, ObjFile, parse};
-pub use mtl::{Map, Material, parse_mtl};
+pub use mtl::{Contents, Map, Material, parse_mtl};
 pub use runs::Run;
 pub use scan::{Corner, NONE};
 

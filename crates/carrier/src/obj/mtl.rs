@@ -46,6 +46,15 @@ pub struct Material {
     pub unknown: Vec<(String, String)>,
 }
 
+/// What a material library holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contents {
+    /// Its materials, in their order.
+    pub materials: Vec<Material>,
+    /// Names and lines (from 1) of the libraries that it names in turn, which no reader follows.
+    pub nested: Vec<(String, u64)>,
+}
+
 /// Keys that say nothing about what foliar needs: read over in silence.
 const UNUSED: &[&str] = &[
     "ka",
@@ -79,9 +88,9 @@ const UNUSED: &[&str] = &[
 ///
 /// # Errors
 /// [`CarrierError::Input`] with the line, for numbers that are none, UTF-16 and binary data.
-pub fn parse_mtl(bytes: &[u8], file: &str) -> Result<Vec<Material>, CarrierError> {
+pub fn parse_mtl(bytes: &[u8], file: &str) -> Result<Contents, CarrierError> {
     let text = prepare(bytes, file, "MTL")?;
-    let mut materials: Vec<Material> = Vec::new();
+    let mut found = Contents::default();
     for (index, line) in text.bytes.split(|&b| b == b'\n').enumerate() {
         let number = index as u64 + 1;
         let (keyword, rest) = split_word(trim(line));
@@ -90,14 +99,16 @@ pub fn parse_mtl(bytes: &[u8], file: &str) -> Result<Vec<Material>, CarrierError
         }
         let keyword = name(keyword).0;
         if keyword.eq_ignore_ascii_case("newmtl") {
-            materials.push(Material { name: name(rest).0, line: number, ..Material::default() });
-        } else if let Some(material) = materials.last_mut() {
+            found.materials.push(Material { name: name(rest).0, line: number, ..Material::default() });
+        } else if keyword.eq_ignore_ascii_case("mtllib") {
+            found.nested.push((name(rest).0, number));
+        } else if let Some(material) = found.materials.last_mut() {
             material
                 .key(&keyword, rest, number)
                 .map_err(|error| CarrierError::input(file, format!("line {number}"), error.problem, error.remedy))?;
         }
     }
-    Ok(materials)
+    Ok(found)
 }
 
 impl Material {
@@ -190,7 +201,7 @@ mod tests {
     use super::*;
 
     fn one(text: &str) -> Material {
-        parse_mtl(text.as_bytes(), "a.mtl").unwrap().remove(0)
+        parse_mtl(text.as_bytes(), "a.mtl").unwrap().materials.remove(0)
     }
 
     fn file(line: &str) -> String {
@@ -244,7 +255,7 @@ mod tests {
 
     #[test]
     fn names_may_have_blanks_and_be_latin_1() {
-        let materials = parse_mtl(b"newmtl twig leaves \r\nnewmtl \xE9corce\n", "a.mtl").unwrap();
-        assert_eq!(materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(), ["twig leaves", "écorce"]);
+        let found = parse_mtl(b"newmtl twig leaves \r\nnewmtl \xE9corce\n", "a.mtl").unwrap();
+        assert_eq!(found.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(), ["twig leaves", "écorce"]);
     }
 }

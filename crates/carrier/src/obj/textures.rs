@@ -1,7 +1,7 @@
 //! Pictures of OBJ materials as glTF images: PNG and JPEG bytes as they are, other formats as PNG,
 //! alpha joined, heights made normals. What cannot be read becomes a finding, and no texture.
 
-use super::library::Source;
+use super::library::{BESIDE, Source};
 use super::mtl::Map;
 use crate::images::{self, Format};
 use crate::{CarrierError, paths};
@@ -17,6 +17,17 @@ pub(crate) struct Picture {
     format: Format,
     bytes: Vec<u8>,
     raster: Raster,
+}
+
+/// A picture that something names.
+#[derive(Clone, Debug)]
+pub(crate) struct Named {
+    /// Where it lies, or should.
+    pub path: PathBuf,
+    /// The file that names it.
+    pub file: String,
+    /// Where in that file.
+    pub place: String,
 }
 
 /// An image of the glTF.
@@ -55,40 +66,39 @@ pub(crate) struct Textures {
 }
 
 impl Textures {
-    /// Path of a picture that a library names.
+    /// A picture that a library names.
     ///
     /// # Errors
     /// [`CarrierError::Input`] where it lies outside the allowed folders.
-    pub fn locate(&self, map: &Map, library: &Path, source: &Source) -> Result<PathBuf, CarrierError> {
+    pub fn locate(&self, map: &Map, library: &Path, source: &Source) -> Result<Named, CarrierError> {
         // Names count from the library's own folder, which may be a searched one.
         let folder = library.parent().unwrap_or(source.folder);
-        let place = format!("line {}", map.line);
-        let path = paths::resolve_at(&map.file, folder, &source.import.search, &library.display().to_string(), &place)?;
-        if path.is_file() || folder == source.folder {
-            return Ok(path);
-        }
-        paths::resolve_at(&map.file, source.folder, &source.import.search, &library.display().to_string(), &place)
+        let (file, place) = (library.display().to_string(), format!("line {}", map.line));
+        let find = |folder| paths::resolve_at(&map.file, folder, &source.import.search, &file, &place);
+        let beside = find(folder)?;
+        let path = if beside.is_file() || folder == source.folder { beside } else { find(source.folder)? };
+        Ok(Named { path, file, place })
     }
 
     /// Reads a picture once. Says whether there is one.
-    pub fn read(&mut self, path: &Path, material: &str) -> bool {
+    pub fn read(&mut self, named: &Named, material: &str) -> bool {
+        let Named { path, file, place } = named;
         if let Some(known) = self.pictures.get(path) {
             return known.is_some();
         }
         let picture = match load(path) {
-            Ok(picture) => Some(picture),
+            Ok(picture) => {
+                self.files.push(path.clone());
+                Some(picture)
+            }
             Err(why) => {
                 let message = format!("texture of material {material:?}: {why}; the material goes without it");
-                let file = path.display().to_string();
-                self.findings.push(Finding::new(&code::IMPORT_TEXTURE, message).in_file(file));
+                self.findings.push(Finding::new(&code::IMPORT_TEXTURE, message).at(place).in_file(file));
                 None
             }
         };
         let found = picture.is_some();
-        if found {
-            self.files.push(path.to_path_buf());
-        }
-        self.pictures.insert(path.to_path_buf(), picture);
+        self.pictures.insert(path.clone(), picture);
         found
     }
 
@@ -156,9 +166,9 @@ impl Textures {
 fn load(path: &Path) -> Result<Picture, String> {
     let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     if !path.is_file() {
-        return Err(format!("{name} is missing"));
+        return Err(format!("{} is missing: {BESIDE}", path.display()));
     }
-    let bytes = std::fs::read(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
+    let bytes = std::fs::read(path).map_err(|error| format!("{name} cannot be read ({error}): make it readable"))?;
     let format = images::sniff(&bytes);
     let raster = images::decode(&bytes, &name).map_err(|error| error.to_string())?;
     Ok(Picture { name, format, bytes, raster })

@@ -132,7 +132,7 @@ fn tobj_reads_the_same_colors_and_maps() {
         if path.extension().is_none_or(|e| e != "mtl") {
             continue;
         }
-        let ours = parse_mtl(&std::fs::read(&path).unwrap(), "t.mtl").unwrap();
+        let ours = parse_mtl(&std::fs::read(&path).unwrap(), "t.mtl").unwrap().materials;
         let (theirs, _) = tobj::load_mtl(&path).unwrap();
         assert_eq!(ours.len(), theirs.len(), "{}", path.display());
         for (a, b) in ours.iter().zip(&theirs) {
