@@ -1,6 +1,6 @@
 //! What xtask is asked.
 
-use crate::{faults, fixtures, generated, run_tests, tidy, with_foliar};
+use crate::{faults, fixtures, generated, run_tests, tidy, validator, with_foliar};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -41,6 +41,8 @@ enum Chore {
         /// Only trees whose name contains this
         name: Option<String>,
     },
+    /// Runs the Khronos validator over every output of the tests
+    Validator,
     /// Reads every output of the tests by a reader that shares no code with the writer
     SecondReader,
     /// Plants small faults in a scratch copy and demands that the tests they name go red
@@ -62,6 +64,7 @@ pub fn main() -> ExitCode {
         Chore::Fixtures { .. } => fixtures::write(),
         Chore::Bench { name } => with_foliar::run("bench", name.as_deref()),
         Chore::Gallery { name } => with_foliar::run("gallery", name.as_deref()),
+        Chore::Validator => validator::run(),
         Chore::SecondReader => with_foliar::run("second-reader", None),
         Chore::Faults { names } => faults::run(&names),
         Chore::Test => run_tests::run(),

@@ -22,6 +22,8 @@ enum Verdict {
     Stale,
     /// The code with the fault does not build: that proves nothing.
     Unbuilt,
+    /// A command before the last goes red: the last is not what sees the fault.
+    Early,
     /// The command is red without the fault.
     RedBefore,
 }
@@ -33,6 +35,7 @@ impl Verdict {
             Verdict::Missed => "MISSED: the command stays green",
             Verdict::Stale => "STALE: the patch does not apply",
             Verdict::Unbuilt => "UNBUILT: does not compile, so proves nothing",
+            Verdict::Early => "EARLY: a command before the last one goes red",
             Verdict::RedBefore => "RED BEFORE: the command fails without the fault",
         }
     }
@@ -48,15 +51,14 @@ pub fn run(names: &[String]) -> Result<()> {
         bail!("no fault is named like {}; there are {}", names.join(", "), all.join(", "));
     }
     let copy = Copy::refresh()?;
-    let mut green: BTreeMap<&[String], bool> = BTreeMap::new();
+    let mut green: BTreeMap<&[Vec<String>], bool> = BTreeMap::new();
     let mut verdicts = Vec::new();
     for fault in chosen {
-        let before = green.get(fault.command.as_slice()).copied();
-        let is_green = match before {
-            Some(known) => known,
-            None => copy.passes(&fault.command)?,
+        let is_green = match green.get(fault.commands.as_slice()) {
+            Some(known) => *known,
+            None => first_red(&copy, fault)?.is_none(),
         };
-        green.insert(&fault.command, is_green);
+        green.insert(&fault.commands, is_green);
         let verdict = if is_green { plant(&copy, fault)? } else { Verdict::RedBefore };
         println!("{:<32} {:<28} {}", fault.name, fault.law, verdict.words());
         verdicts.push(verdict);
@@ -83,11 +85,30 @@ fn plant(copy: &Copy, fault: &Fault) -> Result<Verdict> {
     if !copy.apply(fault)? {
         return Ok(Verdict::Stale);
     }
-    let verdict = match copy.builds(&fault.command)? {
-        false => Verdict::Unbuilt,
-        true if copy.passes(&fault.command)? => Verdict::Missed,
-        true => Verdict::Caught,
-    };
+    let verdict = judge(copy, fault);
     copy.restore(fault)?;
-    Ok(verdict)
+    verdict
+}
+
+fn judge(copy: &Copy, fault: &Fault) -> Result<Verdict> {
+    for command in &fault.commands {
+        if !copy.builds(command)? {
+            return Ok(Verdict::Unbuilt);
+        }
+    }
+    Ok(match first_red(copy, fault)? {
+        None => Verdict::Missed,
+        Some(at) if at + 1 < fault.commands.len() => Verdict::Early,
+        Some(_) => Verdict::Caught,
+    })
+}
+
+/// The first of a fault's commands that fails.
+fn first_red(copy: &Copy, fault: &Fault) -> Result<Option<usize>> {
+    for (index, command) in fault.commands.iter().enumerate() {
+        if !copy.passes(command)? {
+            return Ok(Some(index));
+        }
+    }
+    Ok(None)
 }
