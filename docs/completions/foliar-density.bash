@@ -23,7 +23,7 @@ _foliar__density() {
 
     case "${cmd}" in
         foliar__density)
-            opts="-o -d -q -v -h -V --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --radius-m --threshold --darkest-density --darkest-ambient --exponent --self-leaf --ambient --generators --channels --quality --blend --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
+            opts="-o -d -q -v -h -V --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --radius-m --threshold --darkest-density --density-unit --darkest-ambient --exponent --self --ambient --generators --subsample --normals --channels --quality --blend --surface-cell-m --surface-memory-mb --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -105,6 +105,10 @@ _foliar__density() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --density-unit)
+                    COMPREPLY=($(compgen -W "median absolute" -- "${cur}"))
+                    return 0
+                    ;;
                 --darkest-ambient)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -113,7 +117,7 @@ _foliar__density() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --self-leaf)
+                --self)
                     COMPREPLY=($(compgen -W "exclude include" -- "${cur}"))
                     return 0
                     ;;
@@ -122,7 +126,15 @@ _foliar__density() {
                     return 0
                     ;;
                 --generators)
-                    COMPREPLY=($(compgen -W "leaf leafcount" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "leaf leaf-count primitive" -- "${cur}"))
+                    return 0
+                    ;;
+                --subsample)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --normals)
+                    COMPREPLY=($(compgen -W "sky surface" -- "${cur}"))
                     return 0
                     ;;
                 --channels)
@@ -134,6 +146,14 @@ _foliar__density() {
                     return 0
                     ;;
                 --blend)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --surface-cell-m)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --surface-memory-mb)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -15,21 +15,29 @@ complete -c foliar-density -l leaf -d 'Parts that are leaves.' -r
 complete -c foliar-density -l wood -d 'Parts that are wood.' -r
 complete -c foliar-density -l other -d 'Parts that are no plant.' -r
 complete -c foliar-density -l radius-m -d 'Radius of influence of a leaf, meters (Luft07 eq. 2); nothing said: from the crown\'s size and the number of its leaves. [meters, above 0]' -r
-complete -c foliar-density -l threshold -d 'Density below which a place counts as outside, in units of the plant\'s median density (tau of Luft07 eq. 3). [at least 0, default 0.1]' -r
-complete -c foliar-density -l darkest-density -d 'Density above the threshold from which a place is darkest, in units of the plant\'s median density (d_min of Luft07 eq. 4). [above 0, default 2.0]' -r
+complete -c foliar-density -l threshold -d 'Density below which a place counts as outside, in units of `density_unit` (tau of Luft07 eq. 3). [at least 0, default 0.1]' -r
+complete -c foliar-density -l darkest-density -d 'Density above the threshold from which a place is darkest, in units of `density_unit` (d_min of Luft07 eq. 4). [above 0, default 2.0]' -r
+complete -c foliar-density -l density-unit -d 'Unit of `threshold` and `darkest_density`. [default "median"]' -r -f -a "median\t'The plant\'s own median density: the same numbers suit any tree.'
+absolute\t'Density at the center of a mean leaf alone, as the paper has it: to be found by hand for each tree.'"
 complete -c foliar-density -l darkest-ambient -d 'Ambient coefficient of the darkest places (k_min of Luft07 eq. 4). [at least 0, at most 1, default 0.1]' -r
 complete -c foliar-density -l exponent -d 'How fast light falls off with density (n of Luft07 eq. 4). [above 0, default 3.0]' -r
-complete -c foliar-density -l self-leaf -d 'Whether a leaf\'s own group counts in the density at its vertices. [default "exclude"]' -r -f -a "exclude\t'All but the leaf\'s own group: a lone leaf is fully lit.'
+complete -c foliar-density -l self -d 'Whether a leaf\'s own group counts in the density at its vertices. [default "exclude"]' -r -f -a "exclude\t'All but the leaf\'s own group: a lone leaf is fully lit.'
 include\t'All, as the paper sums: a lone leaf shades itself.'"
 complete -c foliar-density -l ambient -d 'Ambient term: `luft` or `sky`. [default "sky"]' -r -f -a "luft\t'k_a of the local density (Luft07 eq. 4).'
 sky\t'Transmittance to the sky, averaged over all directions (Beer-Lambert through the density field).'"
 complete -c foliar-density -l generators -d 'What one metaball stands for. [default "leaf"]' -r -f -a "leaf\t'A leaf, weighted by its area with alpha (mean weight 1).'
-leafcount\t'A leaf, every one with weight 1.'"
+leaf-count\t'A leaf, every one with weight 1.'
+primitive\t'A triangle of the foliage, every one with weight 1, as the paper has it: a leaf that is cut into more triangles gets denser.'"
+complete -c foliar-density -l subsample -d 'Share of the metaballs that count, chosen at random (Luft07 section 5): faster and coarser. [above 0, at most 1, default 1.0]' -r
+complete -c foliar-density -l normals -d 'Where realigned normals come from. [default "sky"]' -r -f -a "sky\t'Mean direction to the sky, each direction weighted by the light that comes through: our own.'
+surface\t'Normal of the closest point of the implicit surface, cavities left out (Luft07 section 4).'"
 complete -c foliar-density -l channels -d 'Which channels are written. [default "both"]' -r -f -a "both\t'`_AMBIENT` and `_SOFT_NORMAL`.'
 ambient\t'`_AMBIENT` only.'
 normals\t'`_SOFT_NORMAL` only.'"
 complete -c foliar-density -l quality -d 'Error of the sky\'s normals and ambient term, rms, in visible steps of each channel: 1 cannot be seen, 4 is a preview; nothing said: what the scene asks for. k_a of Luft07 eq. 4 is exact either way. [above 0]' -r
 complete -c foliar-density -l blend -d 'Share of the original normal in the realigned one (Luft07 section 4). [at least 0, at most 1, default 0.0]' -r
+complete -c foliar-density -l surface-cell-m -d 'Edge of a cell of the implicit surface, meters; nothing said: a quarter of the radius of influence. [meters, above 0]' -r
+complete -c foliar-density -l surface-memory-mb -d 'Most memory that the implicit surface and its making may take, megabytes. [above 0, default 4096.0]' -r
 complete -c foliar-density -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
 mm\t'Millimeter.'

@@ -3,10 +3,13 @@
 use crate::ambient::ambient_coefficient;
 use crate::field::{Field, Query};
 use crate::generators::{Foliage, NO_GROUP};
+use crate::hull;
 use crate::measure;
 use crate::medium::SkySample;
-use crate::params::{AmbientTerm, Channels, Params, SelfLeaf};
+use crate::normals::realigned;
+use crate::params::{AmbientTerm, DensityUnit, NormalMode, Params, SelfLeaf};
 use crate::sky::Sky;
+use foliar_bake::BakeError;
 use foliar_plant::Plant;
 use foliar_schema::{MeasuredError, Role};
 use glam::DVec3;
@@ -86,9 +89,18 @@ pub(crate) struct SkyPlan {
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
 impl SkyPlan {
-    /// Leaves that are large, or sampled from a crown volume, are asked at each vertex; so is wood, where
-    /// the ambient term is the sky's.
+    /// The plan of the sky: wood counts where the ambient term is the sky's.
     pub fn new(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> SkyPlan {
+        SkyPlan::with_wood(plant, foliage, places, params, params.ambient == AmbientTerm::Sky && params.wants_ambient())
+    }
+
+    /// The plan of what is asked for leaves only.
+    pub fn of_leaves(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> SkyPlan {
+        SkyPlan::with_wood(plant, foliage, places, params, false)
+    }
+
+    /// Leaves that are large, or sampled from a crown volume, are asked at each vertex; so is wood, if at all.
+    fn with_wood(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params, wood: bool) -> SkyPlan {
         let mut queries: Vec<Query> = (0..plant.leaves().len() as u32)
             .map(|leaf| Query {
                 position: plant.leaves()[leaf as usize].center.as_dvec3() - plant.center(),
@@ -99,7 +111,7 @@ impl SkyPlan {
             .vertices()
             .map(|(part, vertex, place)| match plant.leaf_of(part, vertex) {
                 Some(leaf) if !foliage.is_large(leaf) && !plant.leaves()[leaf as usize].crown_volume => leaf,
-                None if plant.role(part) == Role::Wood && params.ambient != AmbientTerm::Sky => NOWHERE,
+                None if plant.role(part) == Role::Wood && !wood => NOWHERE,
                 _ => {
                     queries.push(places.queries[place]);
                     queries.len() as u32 - 1
@@ -126,34 +138,50 @@ pub(crate) struct Values {
 }
 
 /// Bakes all places.
-pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Values {
-    let wants_ambient = params.channels != Channels::Normals;
-    let wants_normals = params.channels != Channels::Ambient;
+///
+/// # Errors
+/// [`BakeError::Parameter`] where normals come from a surface that cannot be meshed.
+pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Result<Values, BakeError> {
     let mut values = Values::default();
-    if wants_normals || params.ambient == AmbientTerm::Sky {
+    if params.asks_sky() {
         let plan = SkyPlan::new(plant, foliage, places, params);
         let sky = Sky::new(foliage, params.sky_points());
         values.sky_radius = Some(sky.radius());
         let samples = sky.samples(&plan.queries);
         values.errors = measure::sky(&sky, foliage, &plan.queries, &samples, params);
-        if wants_ambient && params.ambient == AmbientTerm::Sky {
+        if params.wants_ambient() && params.ambient == AmbientTerm::Sky {
             values.ambient = sky_ambients(&plan.of_place, &samples, params);
         }
-        if wants_normals {
-            values.normals = realigned(plant, places, &plan.of_place, &samples, params);
+        if params.wants_normals() && params.normals == NormalMode::Sky {
+            let toward: Vec<DVec3> = samples.iter().map(|sample| sample.direction).collect();
+            values.normals = realigned(plant, places, &plan.of_place, &toward, params);
         }
     }
-    if wants_ambient && params.ambient == AmbientTerm::Luft {
-        let reference = reference_density(foliage, params);
+    let reference = params.asks_density().then(|| density_unit(foliage, params));
+    if let (true, Some(unit)) = (params.wants_normals() && params.normals == NormalMode::Surface, reference) {
+        let (plan, field) = (SkyPlan::of_leaves(plant, foliage, places, params), hull::field(foliage));
+        let surface = hull::surface(foliage, &field, unit, params)?;
+        let toward = hull::directions(surface, &field, &plan.queries);
+        values.normals = realigned(plant, places, &plan.of_place, &toward, params);
+    }
+    if let (true, Some(unit)) = (params.wants_ambient() && params.ambient == AmbientTerm::Luft, reference) {
         let field = Field::new(foliage.own(), foliage.radius);
         let mut densities = field.densities(&places.queries);
         let around = Field::new(&foliage.neighbors_near(&places.queries), foliage.radius);
         around.add_to(&mut densities, &places.queries);
-        values.ambient = densities.par_iter().map(|&s| luft_ambient(f64::from(s), reference, params) as f32).collect();
-        values.reference = Some(reference);
-        values.errors.push(measure::luft(&[&field, &around], &places.queries, &values.ambient, reference, params));
+        values.ambient = densities.par_iter().map(|&s| luft_ambient(f64::from(s), unit, params) as f32).collect();
+        values.errors.push(measure::luft(&[&field, &around], &places.queries, &values.ambient, unit, params));
     }
-    values
+    values.reference = reference;
+    Ok(values)
+}
+
+/// The density in units of which threshold and darkest density are given.
+pub(crate) fn density_unit(foliage: &Foliage, params: &Params) -> f64 {
+    match params.density_unit {
+        DensityUnit::Median => reference_density(foliage, params),
+        DensityUnit::Absolute => 1.0,
+    }
 }
 
 /// k_a of a density (Luft07 eqs. 3 and 4), with threshold and darkest density in units of `reference`.
@@ -171,39 +199,4 @@ pub(crate) fn sky_ambients(of_place: &[u32], samples: &[SkySample], params: &Par
     let seen = |at: &u32| samples.get(*at as usize).map_or(1.0, |sample| sample.transmittance);
     let lift = |seen: f64| (params.darkest_ambient + (1.0 - params.darkest_ambient) * seen) as f32;
     of_place.iter().map(|at| lift(seen(at))).collect()
-}
-
-/// Realigned normals of leaf parts, rest frame, mixed with the original ones (Luft07 section 4).
-pub(crate) fn realigned(
-    plant: &Plant,
-    places: &Places,
-    of_place: &[u32],
-    samples: &[SkySample],
-    params: &Params,
-) -> Vec<Option<DVec3>> {
-    places
-        .vertices()
-        .map(|(part, vertex, place)| {
-            if plant.role(part) != Role::Leaf {
-                return None;
-            }
-            let sky = samples.get(of_place[place] as usize).map_or(DVec3::Y, |s| s.direction);
-            let original = original_normal(plant, part, vertex);
-            Some(original.filter(|_| params.blend > 0.0).map_or(sky, |own| mix(sky, own, params.blend)))
-        })
-        .collect()
-}
-
-/// NORMAL in the rest frame, else the leaf's.
-fn original_normal(plant: &Plant, part: usize, vertex: usize) -> Option<DVec3> {
-    let own = plant.parts()[part].normals.get(vertex);
-    let own = own.and_then(|n| plant.parts()[part].normal_to_rest(n.as_dvec3()).try_normalize());
-    own.or_else(|| plant.leaves()[plant.leaf_of(part, vertex)? as usize].normal.as_dvec3().try_normalize())
-}
-
-/// The linear combination of two unit vectors; where it vanishes, the realigned one.
-pub(crate) fn mix(realigned: DVec3, original: DVec3, share: f64) -> DVec3 {
-    const VANISHING: f64 = 1e-6;
-    let mixed = realigned * (1.0 - share) + original * share;
-    if mixed.length() > VANISHING { mixed.normalize() } else { realigned }
 }

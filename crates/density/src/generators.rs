@@ -3,7 +3,8 @@
 
 use crate::field::Query;
 use crate::params::{GeneratorKind, Params};
-use crate::tessellate::Spread;
+use crate::subsample::subsample;
+use crate::tessellate::{Spread, primitives};
 use foliar_bake::{Inputs, Placed};
 use foliar_numerics::CompensatedSum;
 use foliar_plant::Plant;
@@ -37,7 +38,7 @@ pub struct Foliage {
     stands: Vec<usize>,
     /// Radius of influence, meters.
     pub radius: f64,
-    /// Mean area of the leaves that have area, m^2.
+    /// Area that a weight of 1 stands for, m^2: of a mean leaf, or of a mean primitive.
     pub mean_area: f64,
     /// Per leaf: distance from its center to its farthest vertex, meters (0 without vertices).
     pub extents: Vec<f64>,
@@ -64,15 +65,18 @@ impl Foliage {
     pub fn new(plant: &Plant, neighbors: &[Placed], params: &Params) -> Foliage {
         let extents = extents(plant);
         let radius = clamp_radius(params.radius_m.unwrap_or_else(|| automatic_radius(plant, &extents)), plant);
-        let with_area = plant.leaves().iter().filter(|leaf| leaf.area > 0.0).count().max(1);
         let total: CompensatedSum = plant.leaves().iter().map(|leaf| f64::from(leaf.area)).collect();
-        let mean_area = total.value() / with_area as f64;
+        let count = match params.generators {
+            GeneratorKind::Primitive => primitives(plant).len(),
+            _ => plant.leaves().iter().filter(|leaf| leaf.area > 0.0).count(),
+        };
+        let mean_area = total.value() / count.max(1) as f64;
         let mut foliage = Foliage { generators: Vec::new(), own: 0, stands: Vec::new(), radius, mean_area, extents };
-        foliage.generators = foliage.balls(plant, &foliage.extents, params.generators, None);
+        foliage.generators = foliage.balls(plant, &foliage.extents, params, None);
         foliage.own = foliage.generators.len();
         let stand = |neighbor: &Placed| {
             let own_extents = self::extents(&neighbor.plant);
-            foliage.balls(&neighbor.plant, &own_extents, params.generators, Some((neighbor, plant.center())))
+            foliage.balls(&neighbor.plant, &own_extents, params, Some((neighbor, plant.center())))
         };
         let mut stands: Vec<Vec<Generator>> = neighbors.iter().map(stand).collect();
         stands.sort_by(|a, b| a.len().cmp(&b.len()).then_with(|| before(a, b)));
@@ -117,32 +121,46 @@ impl Foliage {
         &self,
         plant: &Plant,
         extents: &[f64],
-        kind: GeneratorKind,
+        params: &Params,
         neighbor: Option<(&Placed, DVec3)>,
     ) -> Vec<Generator> {
         let scale = neighbor.map_or(1.0, |(n, _)| libm::cbrt(n.transform.matrix3.determinant().abs()));
-        let is_large = |leaf: usize| EDGE_PER_EXTENT * extents[leaf] * scale > self.radius;
-        let spread = Spread::new(plant, &is_large, self.radius / scale);
-        let mut balls = Vec::with_capacity(plant.leaves().len());
-        for (id, leaf) in plant.leaves().iter().enumerate() {
-            let weight = match kind {
-                _ if leaf.area <= 0.0 => continue,
-                GeneratorKind::Leaf if self.mean_area > 0.0 => f64::from(leaf.area) * scale * scale / self.mean_area,
-                GeneratorKind::Leaf | GeneratorKind::LeafCount => 1.0,
-            };
-            let own_center = leaf.center.as_dvec3() - plant.center();
-            for (position, share) in spread.of(id as u32).unwrap_or(&[(own_center, 1.0)]) {
-                let (position, group) = match neighbor {
-                    None => (*position, leaf.group),
-                    Some((n, center)) => {
-                        (n.transform.transform_point3(*position + plant.center()) - center, NEIGHBOR_GROUP)
-                    }
-                };
-                balls.push(Generator { position, weight: (weight * share) as f32, group });
+        let mut balls = match params.generators {
+            GeneratorKind::Primitive => {
+                primitives(plant).into_iter().map(|(at, leaf)| ball(plant, leaf, at, 1.0)).collect()
+            }
+            kind => self.leaf_balls(plant, extents, kind, scale),
+        };
+        subsample(&mut balls, params.subsample);
+        if let Some((n, center)) = neighbor {
+            for ball in &mut balls {
+                ball.position = n.transform.transform_point3(ball.position + plant.center()) - center;
+                ball.group = NEIGHBOR_GROUP;
             }
         }
         balls
     }
+
+    /// A ball per leaf of a plant that is scaled, several for a large leaf, relative to its own center.
+    fn leaf_balls(&self, plant: &Plant, extents: &[f64], kind: GeneratorKind, scale: f64) -> Vec<Generator> {
+        let is_large = |leaf: usize| EDGE_PER_EXTENT * extents[leaf] * scale > self.radius;
+        let spread = Spread::new(plant, &is_large, self.radius / scale);
+        let mut balls = Vec::with_capacity(plant.leaves().len());
+        for (id, leaf) in (0u32..).zip(plant.leaves()).filter(|(_, leaf)| leaf.area > 0.0) {
+            let weight = match kind {
+                GeneratorKind::Leaf if self.mean_area > 0.0 => f64::from(leaf.area) * scale * scale / self.mean_area,
+                _ => 1.0,
+            };
+            let alone = [(leaf.center.as_dvec3() - plant.center(), 1.0)];
+            let places = spread.of(id).unwrap_or(&alone).iter();
+            balls.extend(places.map(|&(at, share)| ball(plant, id, at, weight * share)));
+        }
+        balls
+    }
+}
+
+fn ball(plant: &Plant, leaf: u32, position: DVec3, weight: f64) -> Generator {
+    Generator { position, weight: weight as f32, group: plant.leaves()[leaf as usize].group }
 }
 
 /// An order of two lists of as many balls that depends on where they are only.

@@ -10,15 +10,18 @@ pub mod fast;
 mod field;
 mod generators;
 mod grid;
+mod hull;
 mod kernel;
 mod lattice;
 mod measure;
 mod medium;
+mod normals;
 mod output;
 mod params;
 pub mod reference;
 mod requirement;
 mod sky;
+mod subsample;
 pub mod surface;
 mod tessellate;
 #[cfg(test)]
@@ -33,7 +36,7 @@ use foliar_schema::{Scene, names};
 pub use generators::{Foliage, Generator, NO_GROUP};
 pub use kernel::Isa;
 pub use medium::{BALL_INTEGRAL, SkySample};
-pub use params::{AmbientTerm, Channels, GeneratorKind, Params, SelfLeaf};
+pub use params::{AmbientTerm, Channels, DensityUnit, GeneratorKind, NormalMode, Params, SelfLeaf};
 use serde_json::{Map, Value, json};
 pub use sky::Sky;
 
@@ -97,7 +100,7 @@ impl Baker for Density {
         };
         let places = fast::Places::new(plant, &params);
         progress.step("density", 0, 1);
-        let values = fast::values(plant, &foliage, &places, &params);
+        let values = fast::values(plant, &foliage, &places, &params)?;
         progress.step("density", 1, 1);
         Ok(output::baked(plant, &foliage, &places, &values, &params))
     }
@@ -108,7 +111,7 @@ impl Baker for Density {
             return Ok(output::empty(&params));
         };
         let places = fast::Places::new(plant, &params);
-        let values = reference::values(plant, &foliage, &places, &params);
+        let values = reference::values(plant, &foliage, &places, &params)?;
         Ok(output::baked(plant, &foliage, &places, &values, &params))
     }
 }

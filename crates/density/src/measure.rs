@@ -4,7 +4,7 @@ use crate::fast::luft_ambient;
 use crate::field::{Field, Query};
 use crate::generators::Foliage;
 use crate::medium::SkySample;
-use crate::params::{AmbientTerm, Channels, Params};
+use crate::params::{AmbientTerm, NormalMode, Params};
 use crate::sky::Sky;
 use crate::{directions::DIRECTIONS, reference};
 use foliar_numerics::ErrorStats;
@@ -53,11 +53,11 @@ pub(crate) fn sky(
     let pairs = || places.iter().map(|&at| &samples[at]).zip(&exact);
     let lift = 1.0 - params.darkest_ambient;
     let mut errors = Vec::new();
-    if params.ambient == AmbientTerm::Sky && params.channels != Channels::Normals {
+    if params.ambient == AmbientTerm::Sky && params.wants_ambient() {
         let terms = pairs().map(|(fast, exact)| lift * (fast.transmittance - exact.transmittance));
         errors.push(measured(names::AMBIENT, terms.collect()));
     }
-    if params.channels != Channels::Ambient {
+    if params.normals == NormalMode::Sky && params.wants_normals() {
         let angle = |chord: f64| 2.0 * libm::asin((chord / 2.0).min(1.0)).to_degrees();
         let angles = pairs().map(|(fast, exact)| angle((fast.direction - exact.direction).length()));
         errors.push(measured(names::SOFT_NORMAL, angles.collect()));

@@ -58,6 +58,7 @@ fn facts(foliage: &Foliage, values: &Values, params: &Params) -> Map<String, Val
     fact("generators", json!(foliage.own));
     fact("meanLeafAreaM2", json!(foliage.mean_area));
     fact("ambient", json!(params.ambient));
+    fact("normals", json!(params.normals));
     fact("darkestAmbient", json!(params.darkest_ambient));
     if let Some(reference) = values.reference {
         fact("referenceDensity", json!(reference));

@@ -1,6 +1,7 @@
 //! Parameters of the density room: what a person would pick, each defined once (Luft07 eqs. 2 to 4).
 
 use crate::ROOM;
+use crate::surface::SurfaceParams;
 use foliar_bake::BakeError;
 use foliar_schema::Budget;
 use schemars::JsonSchema;
@@ -35,13 +36,38 @@ pub enum AmbientTerm {
 
 /// What one metaball stands for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum GeneratorKind {
     /// A leaf, weighted by its area with alpha (mean weight 1).
     #[default]
     Leaf,
     /// A leaf, every one with weight 1.
     LeafCount,
+    /// A triangle of the foliage, every one with weight 1, as the paper has it: a leaf that is cut into more
+    /// triangles gets denser.
+    Primitive,
+}
+
+/// In units of what `threshold` and `darkest_density` are given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DensityUnit {
+    /// The plant's own median density: the same numbers suit any tree.
+    #[default]
+    Median,
+    /// Density at the center of a mean leaf alone, as the paper has it: to be found by hand for each tree.
+    Absolute,
+}
+
+/// Where realigned normals come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum NormalMode {
+    /// Mean direction to the sky, each direction weighted by the light that comes through: our own.
+    #[default]
+    Sky,
+    /// Normal of the closest point of the implicit surface, cavities left out (Luft07 section 4).
+    Surface,
 }
 
 /// Which channels are written.
@@ -65,13 +91,15 @@ pub struct Params {
     /// number of its leaves.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub radius_m: Option<f64>,
-    /// Density below which a place counts as outside, in units of the plant's median density (tau of Luft07 eq. 3).
+    /// Density below which a place counts as outside, in units of `density_unit` (tau of Luft07 eq. 3).
     #[schemars(range(min = 0.0))]
     pub threshold: f64,
-    /// Density above the threshold from which a place is darkest, in units of the plant's median density
-    /// (d_min of Luft07 eq. 4).
+    /// Density above the threshold from which a place is darkest, in units of `density_unit` (d_min of
+    /// Luft07 eq. 4).
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub darkest_density: f64,
+    /// Unit of `threshold` and `darkest_density`.
+    pub density_unit: DensityUnit,
     /// Ambient coefficient of the darkest places (k_min of Luft07 eq. 4).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub darkest_ambient: f64,
@@ -79,11 +107,17 @@ pub struct Params {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub exponent: f64,
     /// Whether a leaf's own group counts in the density at its vertices.
+    #[serde(rename = "self")]
     pub self_leaf: SelfLeaf,
     /// Ambient term: `luft` or `sky`.
     pub ambient: AmbientTerm,
     /// What one metaball stands for.
     pub generators: GeneratorKind,
+    /// Share of the metaballs that count, chosen at random (Luft07 section 5): faster and coarser.
+    #[schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0))]
+    pub subsample: f64,
+    /// Where realigned normals come from.
+    pub normals: NormalMode,
     /// Which channels are written.
     pub channels: Channels,
     /// Error of the sky's normals and ambient term, rms, in visible steps of each channel: 1 cannot be seen,
@@ -93,6 +127,12 @@ pub struct Params {
     /// Share of the original normal in the realigned one (Luft07 section 4).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub blend: f64,
+    /// Edge of a cell of the implicit surface, meters; nothing said: a quarter of the radius of influence.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub surface_cell_m: Option<f64>,
+    /// Most memory that the implicit surface and its making may take, megabytes.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub surface_memory_mb: f64,
 }
 
 impl Default for Params {
@@ -101,14 +141,19 @@ impl Default for Params {
             radius_m: None,
             threshold: 0.1,
             darkest_density: 2.0,
+            density_unit: DensityUnit::default(),
             darkest_ambient: 0.1,
             exponent: 3.0,
             self_leaf: SelfLeaf::default(),
             ambient: AmbientTerm::default(),
             generators: GeneratorKind::default(),
+            subsample: 1.0,
+            normals: NormalMode::default(),
             channels: Channels::default(),
             quality: None,
             blend: 0.0,
+            surface_cell_m: None,
+            surface_memory_mb: SurfaceParams::default().memory_mb,
         }
     }
 }
@@ -138,7 +183,8 @@ impl Params {
     /// [`BakeError::Parameter`] with name, number and what would be right.
     pub fn check(&self) -> Result<(), BakeError> {
         let radius = self.radius_m.unwrap_or(1.0);
-        let rules: [(&str, f64, bool, &str); 7] = [
+        let cell = self.surface_cell_m.unwrap_or(1.0);
+        let rules: [(&str, f64, bool, &str); 10] = [
             ("radius_m", radius, radius > 0.0, "above 0 (a leaf's influence, Luft07 eq. 2)"),
             ("threshold", self.threshold, self.threshold >= 0.0, "0 or above (Luft07 eq. 3)"),
             ("darkest_density", self.darkest_density, self.darkest_density > 0.0, "above 0 (Luft07 eq. 4)"),
@@ -146,6 +192,9 @@ impl Params {
             ("exponent", self.exponent, self.exponent > 0.0, "above 0 (Luft07 eq. 4)"),
             ("quality", self.quality(), self.quality() > 0.0, "above 0 (rms error in visible steps)"),
             ("blend", self.blend, (0.0..=1.0).contains(&self.blend), "from 0 to 1"),
+            ("subsample", self.subsample, self.subsample > 0.0 && self.subsample <= 1.0, "above 0 and at most 1"),
+            ("surface_cell_m", cell, cell > 0.0, "above 0"),
+            ("surface_memory_mb", self.surface_memory_mb, self.surface_memory_mb > 0.0, "above 0"),
         ];
         match rules.into_iter().find(|(_, value, holds, _)| !(value.is_finite() && *holds)) {
             None => Ok(()),
@@ -155,6 +204,28 @@ impl Params {
                 reason: format!("is {value}: must be finite and {rule}"),
             }),
         }
+    }
+
+    /// Whether `_AMBIENT` is written.
+    pub(crate) fn wants_ambient(&self) -> bool {
+        self.channels != Channels::Normals
+    }
+
+    /// Whether `_SOFT_NORMAL` is written.
+    pub(crate) fn wants_normals(&self) -> bool {
+        self.channels != Channels::Ambient
+    }
+
+    /// Whether anything of what is written comes from the sky.
+    pub(crate) fn asks_sky(&self) -> bool {
+        self.wants_ambient() && self.ambient == AmbientTerm::Sky
+            || self.wants_normals() && self.normals == NormalMode::Sky
+    }
+
+    /// Whether anything of what is written is a matter of threshold and density.
+    pub(crate) fn asks_density(&self) -> bool {
+        self.wants_ambient() && self.ambient == AmbientTerm::Luft
+            || self.wants_normals() && self.normals == NormalMode::Surface
     }
 
     /// The error to keep, visible steps: this room's own, else a scene's default. (A scene that says

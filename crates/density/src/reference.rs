@@ -2,12 +2,16 @@
 //! to 4; the sky by the chords of all balls). Tests and measured errors compare with them.
 
 use crate::directions::{DIRECTIONS, sky_directions};
-use crate::fast::{Places, SkyPlan, Values, luft_ambient, median, realigned, sky_ambients};
+use crate::fast::{Places, SkyPlan, Values, luft_ambient, median, sky_ambients};
 use crate::field::Query;
 use crate::generators::{Foliage, Generator, NO_GROUP};
+use crate::hull;
 use crate::medium::{SkySample, chord, extinction, see};
-use crate::params::{AmbientTerm, Channels, Params, SelfLeaf};
+use crate::normals::realigned;
+use crate::params::{AmbientTerm, DensityUnit, NormalMode, Params, SelfLeaf};
 use crate::sky::Sky;
+use crate::surface::{DensityField, Probe};
+use foliar_bake::BakeError;
 use foliar_plant::Plant;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -51,36 +55,72 @@ pub fn sky(generators: &[Generator], radius: f64, mean_area: f64, query: &Query)
     see(&depths, &directions, query.position)
 }
 
-/// Everything that a bake computes, by the functions above.
-pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Values {
+/// The density by its definition, for the surface.
+pub(crate) struct Exact<'a> {
+    /// The balls.
+    pub generators: &'a [Generator],
+    /// Their radius, meters.
+    pub radius: f64,
+}
+
+impl DensityField for Exact<'_> {
+    fn probe(&self, places: &[DVec3]) -> Vec<Probe> {
+        let at = |&position: &DVec3| {
+            let sample = field(self.generators, self.radius, &Query { position, skip: NO_GROUP });
+            Probe { density: sample.density, gradient: sample.gradient }
+        };
+        places.par_iter().map(at).collect()
+    }
+}
+
+/// Everything that a bake computes, by the functions above. The surface is meshed as in the bake, from the exact
+/// field: `tests/oracle.rs` knows the closest points of the true one.
+///
+/// # Errors
+/// As the bake's.
+pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Result<Values, BakeError> {
+    let mut values = Values::default();
+    if params.asks_sky() {
+        let plan = SkyPlan::new(plant, foliage, places, params);
+        let radius = Sky::new(foliage, params.sky_points()).radius();
+        let samples: Vec<SkySample> =
+            plan.queries.par_iter().map(|q| sky(&foliage.generators, radius, foliage.mean_area, q)).collect();
+        if params.wants_ambient() && params.ambient == AmbientTerm::Sky {
+            values.ambient = sky_ambients(&plan.of_place, &samples, params);
+        }
+        if params.wants_normals() && params.normals == NormalMode::Sky {
+            let toward: Vec<DVec3> = samples.iter().map(|sample| sample.direction).collect();
+            values.normals = realigned(plant, places, &plan.of_place, &toward, params);
+        }
+        values.sky_radius = Some(radius);
+    }
+    if params.asks_density() {
+        let unit = density_unit(foliage, params);
+        let luft = |q: &Query| luft_ambient(field(&foliage.generators, foliage.radius, q).density, unit, params) as f32;
+        if params.wants_ambient() && params.ambient == AmbientTerm::Luft {
+            values.ambient = places.queries.par_iter().map(luft).collect();
+        }
+        if params.wants_normals() && params.normals == NormalMode::Surface {
+            let exact = Exact { generators: foliage.own(), radius: foliage.radius };
+            let plan = SkyPlan::of_leaves(plant, foliage, places, params);
+            let surface = hull::surface(foliage, &exact, unit, params)?;
+            let toward = hull::directions(surface, &exact, &plan.queries);
+            values.normals = realigned(plant, places, &plan.of_place, &toward, params);
+        }
+        values.reference = Some(unit);
+    }
+    Ok(values)
+}
+
+/// Median density by the definition, or 1.
+fn density_unit(foliage: &Foliage, params: &Params) -> f64 {
+    if params.density_unit == DensityUnit::Absolute {
+        return 1.0;
+    }
     let skip = |group| if params.self_leaf == SelfLeaf::Exclude { group } else { NO_GROUP };
     let query = |ball: &Generator| Query { position: ball.position, skip: skip(ball.group) };
     let queries: Vec<Query> = foliage.own().iter().map(query).collect();
     let mut own: Vec<f64> = queries.par_iter().map(|q| field(foliage.own(), foliage.radius, q).density).collect();
     own.sort_unstable_by(f64::total_cmp);
-    let reference = median(&own).max(1.0);
-    let plan = SkyPlan::new(plant, foliage, places, params);
-    let radius = Sky::new(foliage, params.sky_points()).radius();
-    let samples: Vec<SkySample> =
-        plan.queries.par_iter().map(|q| sky(&foliage.generators, radius, foliage.mean_area, q)).collect();
-    let luft =
-        |q: &Query| luft_ambient(field(&foliage.generators, foliage.radius, q).density, reference, params) as f32;
-    let ambient = match params.ambient {
-        _ if params.channels == Channels::Normals => Vec::new(),
-        AmbientTerm::Luft => places.queries.par_iter().map(luft).collect(),
-        AmbientTerm::Sky => sky_ambients(&plan.of_place, &samples, params),
-    };
-    let normals = match params.channels {
-        Channels::Ambient => Vec::new(),
-        _ => realigned(plant, places, &plan.of_place, &samples, params),
-    };
-    let asked = params.ambient == AmbientTerm::Sky || params.channels != Channels::Ambient;
-    let luft = params.ambient == AmbientTerm::Luft && params.channels != Channels::Normals;
-    Values {
-        reference: luft.then_some(reference),
-        ambient,
-        normals,
-        sky_radius: asked.then_some(radius),
-        errors: Vec::new(),
-    }
+    median(&own).max(1.0)
 }

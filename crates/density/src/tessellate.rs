@@ -1,4 +1,4 @@
-//! Leaves larger than the radius of influence, sampled by area: their triangles are cut into small
+//! Leaves as triangles: the paper's primitives, and leaves larger than the radius of influence, sampled by area: their triangles are cut into small
 //! pieces, and the pieces that fall into one voxel make one ball. How the leaf is cut into triangles
 //! matters only as far as a piece is wider than nothing.
 
@@ -62,6 +62,23 @@ impl Spread {
             self.balls.extend(voxels.into_values().map(|(area, moment)| (moment / area, area / total)));
         }
     }
+}
+
+/// Centers of mass of all triangles with area that belong to a leaf, relative to the plant's center, and their
+/// leaves (the generators of Luft07 section 3).
+pub(crate) fn primitives(plant: &Plant) -> Vec<(DVec3, u32)> {
+    let mut found = Vec::new();
+    for (index, part) in plant.parts().iter().enumerate() {
+        for corners in &part.triangles {
+            if let Some(leaf) = plant.leaf_of(index, corners[0] as usize) {
+                let place = corners.map(|c| part.rest_position(c as usize) - plant.center());
+                if triangle_area(&place) > 0.0 {
+                    found.push(((place[0] + place[1] + place[2]) / 3.0, leaf));
+                }
+            }
+        }
+    }
+    found
 }
 
 /// Triangles with area of large leaves, by leaf.

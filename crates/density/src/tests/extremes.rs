@@ -32,7 +32,7 @@ fn one_leaf_alone_is_fully_lit() {
         let layer = bake(&alone, &[], json!({"ambient": term}));
         assert!(ambient(&layer).iter().all(|k| (1.0 - k).abs() < 1e-6), "{term}: {:?}", ambient(&layer));
     }
-    let included = bake(&alone, &[], json!({"ambient": "luft", "self_leaf": "include", "radius_m": 1.0}));
+    let included = bake(&alone, &[], json!({"ambient": "luft", "self": "include", "radius_m": 1.0}));
     assert!(ambient(&included).iter().all(|k| *k < 0.9), "a leaf that counts itself is darker");
 }
 
@@ -129,7 +129,7 @@ fn a_blend_of_one_gives_the_original_normal() {
 
 #[test]
 fn opposite_normals_mix_to_the_realigned_one() {
-    assert_eq!(fast::mix(DVec3::X, -DVec3::X, 0.5), DVec3::X);
+    assert_eq!(crate::normals::mix(DVec3::X, -DVec3::X, 0.5), DVec3::X);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn sky_and_k_a_fall_with_the_depth_under_a_crown() {
         let depth = crown_depth(&crown);
         let params = Params { radius_m, ambient: term, channels: Channels::Ambient, ..Params::default() };
         let foliage = Foliage::new(&crown, &[], &params);
-        let values = fast::values(&crown, &foliage, &fast::Places::new(&crown, &params), &params);
+        let values = fast::values(&crown, &foliage, &fast::Places::new(&crown, &params), &params).unwrap();
         let leaves: Vec<f64> = values.ambient.iter().step_by(4).map(|k| f64::from(*k)).collect();
         let rank = spearman(&leaves, &depth).unwrap();
         assert!(rank < -0.5, "{term:?}: {rank}");
@@ -171,7 +171,7 @@ fn scenes_get_what_they_ask_for_and_bytes_are_exact() {
 #[test]
 fn wood_gets_an_ambient_term_and_keeps_its_normals() {
     let crown = crown(100, 1.0, 0.05, 40);
-    let layer = bake(&crown, &[], json!({"self_leaf": SelfLeaf::Include}));
+    let layer = bake(&crown, &[], json!({"self": SelfLeaf::Include}));
     let wood = crown.parts()[1].place;
     assert!(crown.structure().leaf_ids[1].iter().all(|id| *id == NO_LEAF));
     assert_eq!(layer.attribute(wood, names::AMBIENT).map(Array::rows), Some(40));

@@ -160,7 +160,7 @@ fn k_a_is_the_same_under_rotation() {
     let params = Params { ambient: crate::AmbientTerm::Luft, ..Params::default() };
     let ambient = |plant: &Plant| {
         let foliage = Foliage::new(plant, &[], &params);
-        crate::fast::values(plant, &foliage, &crate::fast::Places::new(plant, &params), &params).ambient
+        crate::fast::values(plant, &foliage, &crate::fast::Places::new(plant, &params), &params).unwrap().ambient
     };
     let upright = crown(500, 2.0, 0.08, 30);
     let turn = DAffine3::from_quat(DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 0.5).normalize(), 0.8));

@@ -3,6 +3,7 @@
 mod extremes;
 mod field;
 mod laws;
+mod modes;
 mod neighbors;
 mod oracle;
 mod plants;
