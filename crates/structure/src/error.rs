@@ -37,6 +37,27 @@ pub enum StructureError {
         /// How many there are.
         count: usize,
     },
+    /// More branches than a float id can count.
+    #[error(
+        "{count} branches: at most 16777216 (2^24) can be numbered in a float attribute; split the plant, or merge its wood"
+    )]
+    TooManyBranches {
+        /// How many pieces of wood there are.
+        count: usize,
+    },
+    /// Coordinates too coarse for the size of the wood.
+    #[error(
+        "part {part:?} stands so far from its mesh's origin that its coordinates step by {step} m, with wood {diagonal} m \
+         across: its tubes cannot be told; move the mesh to its origin and place it by its node"
+    )]
+    Coarse {
+        /// Name of the part.
+        part: String,
+        /// Step between neighboring f32 coordinates, meters.
+        step: f64,
+        /// Diagonal of the box around the wood, meters.
+        diagonal: f64,
+    },
     /// A layer lacks something, or it has another size than the base.
     #[error("layer structure, {what}: {found}, must be {expected}; bake the structure of this base anew")]
     Layer {

@@ -37,13 +37,27 @@ pub(crate) struct Geometry<'a> {
 
 impl<'a> Geometry<'a> {
     pub fn new(base: &'a Base) -> Self {
-        let (low, high) = bounds(base);
+        Geometry::of(base, |_| true)
+    }
+
+    /// Only of the parts that `take` names; others stay empty.
+    pub fn of(base: &'a Base, take: impl Fn(usize) -> bool) -> Self {
+        let (low, high) = bounds(base, &take);
         let center = low.midpoint(high);
         let mut scratch = vec![u32::MAX; base.position_count as usize];
         let parts = base
             .parts
             .iter()
-            .map(|part| {
+            .enumerate()
+            .map(|(index, part)| {
+                if !take(index) {
+                    return PartGeometry {
+                        part,
+                        positions: Vec::new(),
+                        pieces: Pieces::default(),
+                        has_area: Vec::new(),
+                    };
+                }
                 let positions: Vec<DVec3> = (0..part.positions.len()).map(|v| part.rest_position(v) - center).collect();
                 let has_area = part.triangles.iter().map(|t| has_area(t.map(|v| positions[v as usize]))).collect();
                 PartGeometry { part, positions, pieces: find_pieces(part, &mut scratch), has_area }
@@ -64,8 +78,9 @@ fn has_area(corners: [DVec3; 3]) -> bool {
     double_area(corners).length() > AREALESS * longest
 }
 
-fn bounds(base: &Base) -> (DVec3, DVec3) {
-    let used = base.parts.iter().flat_map(|p| p.triangles.iter().flatten().map(|&v| p.rest_position(v as usize)));
+fn bounds(base: &Base, take: impl Fn(usize) -> bool) -> (DVec3, DVec3) {
+    let parts = base.parts.iter().enumerate().filter(|(i, _)| take(*i)).map(|(_, p)| p);
+    let used = parts.flat_map(|p| p.triangles.iter().flatten().map(|&v| p.rest_position(v as usize)));
     let box_around = used.fold(None, |bounds: Option<(DVec3, DVec3)>, p| {
         let (low, high) = bounds.unwrap_or((p, p));
         Some((low.min(p), high.max(p)))
