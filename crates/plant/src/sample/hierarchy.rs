@@ -33,6 +33,11 @@ impl Hierarchy {
         self.stalks.len() as u32 - 1
     }
 
+    /// First vertex of each branch in its part, in their order.
+    pub fn starts(&self) -> Vec<usize> {
+        self.tubes.iter().map(|tube| tube.1).collect()
+    }
+
     /// Adds a leaf.
     pub fn leaf(&mut self, petiole: Vec3, on: OnBranch) {
         self.leaves.push((petiole, on));

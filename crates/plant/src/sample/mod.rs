@@ -4,6 +4,7 @@
 
 mod build;
 mod foliage;
+mod hard;
 mod hierarchy;
 mod noise;
 mod odd;
@@ -12,6 +13,7 @@ mod textures;
 mod tree;
 mod tubes;
 
+pub use hard::{HARD_TREES, HardTree, hard_tree, wood_for_speed};
 pub use odd::odd_plants;
 pub use tree::Recipe;
 
