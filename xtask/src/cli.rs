@@ -36,6 +36,11 @@ enum Chore {
         /// Only those whose name contains this
         name: Option<String>,
     },
+    /// Prints how much of known branch hierarchies is found, the paper's own words beside the robust method
+    Accuracy {
+        /// Only trees whose name contains this
+        name: Option<String>,
+    },
     /// Bakes every shared tree: plain, baked, difference on one page in target/gallery
     Gallery {
         /// Only trees whose name contains this
@@ -63,6 +68,7 @@ pub fn main() -> ExitCode {
         Chore::Fixtures { large: true, .. } => fixtures::write_large().map(|path| println!("{}", path.display())),
         Chore::Fixtures { .. } => fixtures::write(),
         Chore::Bench { name } => with_foliar::run("bench", name.as_deref()),
+        Chore::Accuracy { name } => with_foliar::run("accuracy", name.as_deref()),
         Chore::Gallery { name } => with_foliar::run("gallery", name.as_deref()),
         Chore::Validator => validator::run(),
         Chore::SecondReader => with_foliar::run("second-reader", None),

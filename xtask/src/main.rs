@@ -2,6 +2,8 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "xtask talks to a person; nothing reads it")]
 
 #[cfg(feature = "foliar")]
+mod accuracy;
+#[cfg(feature = "foliar")]
 mod bench;
 mod cli;
 #[cfg(feature = "foliar")]

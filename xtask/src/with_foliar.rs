@@ -9,7 +9,7 @@ use anyhow::Result;
 pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
     let mut cargo = repo::cargo();
     cargo.args(["run", "--quiet", "--package", "xtask", "--features", "foliar"]);
-    if chore != "second-reader" {
+    if chore != "second-reader" && chore != "accuracy" {
         cargo.arg("--release");
     }
     repo::run(cargo.args(["--", chore]).args(name))
@@ -18,7 +18,7 @@ pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
 /// Runs a chore.
 #[cfg(feature = "foliar")]
 pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
-    use crate::{bench, gallery, second_reading};
+    use crate::{accuracy, bench, gallery, second_reading};
     match chore {
         // Figures of an unoptimized build say nothing.
         "bench" | "gallery" if cfg!(debug_assertions) => {
@@ -26,6 +26,7 @@ pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
             cargo.args(["run", "--quiet", "--release", "--package", "xtask", "--features", "foliar", "--", chore]);
             repo::run(cargo.args(name))
         }
+        "accuracy" => accuracy::run(name),
         "bench" => bench::run(name),
         "gallery" => gallery::run(name),
         _ => second_reading::run(),

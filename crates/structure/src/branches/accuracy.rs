@@ -32,6 +32,19 @@ pub struct Accuracy {
     pub branches: usize,
 }
 
+/// A branch that was hung elsewhere than it should be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    /// The true branch.
+    pub branch: u32,
+    /// What it was found as; none where it was lost.
+    pub found: Option<u32>,
+    /// Its true parent.
+    pub right: Option<u32>,
+    /// The true branch that its found parent is.
+    pub parent: Option<u32>,
+}
+
 impl Truth {
     /// What a sample knows of itself, continuations merged by the rule of the step.
     pub fn of_sample(branches: &Branches) -> Truth {
@@ -88,6 +101,21 @@ impl Truth {
         chain
     }
 
+    /// The branches whose parent is wrong.
+    pub fn wrong(&self, found: &Branches) -> Vec<Wrong> {
+        let pairs = self.overlaps(found);
+        let of_found = majority(pairs.iter().map(|(&(t, f), &n)| (f, t, n)), found.count());
+        let of_truth = majority(pairs.iter().map(|(&(t, f), &n)| (t, f, n)), self.parents.len());
+        let wrong = |(branch, &right): (usize, &Option<u32>)| {
+            let own = of_truth[branch].filter(|&f| of_found[f as usize] == Some(branch as u32));
+            let hangs_on = own.map(|f| found.rows[f as usize].parent).filter(|&p| p != NO_BRANCH);
+            let parent = hangs_on.and_then(|p| of_found[p as usize]);
+            let is_right = own.is_some() && parent == right && hangs_on.is_some() == right.is_some();
+            (!is_right).then_some(Wrong { branch: branch as u32, found: own, right, parent })
+        };
+        self.parents.iter().enumerate().filter_map(wrong).collect()
+    }
+
     /// Compares what was found with the truth. Both belong to the same base.
     pub fn compare(&self, found: &Branches) -> Accuracy {
         let pairs = self.overlaps(found);
@@ -98,13 +126,11 @@ impl Truth {
             (Some(found), Some(right)) => of_found[found as usize] == Some(right),
             _ => false,
         };
-        let (mut parent, mut level) = (0usize, 0usize);
-        for (branch, &right) in self.parents.iter().enumerate() {
-            let Some(own) = of_truth[branch].filter(|&f| of_found[f as usize] == Some(branch as u32)) else { continue };
-            let row = &found.rows[own as usize];
-            parent += usize::from(same((row.parent != NO_BRANCH).then_some(row.parent), right));
-            level += usize::from(row.level == self.level(branch as u32));
-        }
+        let parent = self.parents.len() - self.wrong(found).len();
+        let own = |branch: usize| of_truth[branch].filter(|&f| of_found[f as usize] == Some(branch as u32));
+        let right_level =
+            |branch: &usize| own(*branch).is_some_and(|f| found.rows[f as usize].level == self.level(*branch as u32));
+        let level = (0..self.parents.len()).filter(right_level).count();
         let (mut all, mut pure, mut chained) = (0u64, 0u64, 0u64);
         for (&(truth, own), &count) in &pairs {
             all += count;

@@ -11,6 +11,8 @@ use rayon::prelude::*;
 const REACH: f64 = 4.0;
 /// Parents that are weighed for each branch.
 const CANDIDATES: usize = 12;
+/// Costs that differ by less say nothing (the limit of the Occam pass).
+const TIE: f64 = 0.06;
 /// Cost in whole steps: a billionth of the unit.
 const STEPS: f64 = 1e9;
 /// Radii below this share of the wood's diagonal count as it.
@@ -37,7 +39,7 @@ mod ground {
     /// That level is so many heights of the wood thick.
     pub const LEVEL: f64 = 0.02;
     /// Above or below it.
-    pub const AIR: f64 = 3.0;
+    pub const AIR: f64 = 20.0;
     /// More for each height of the wood.
     pub const HEIGHT: f64 = 12.0;
     /// Per logarithm of how much thinner it is than the stem.
@@ -197,17 +199,31 @@ pub(super) fn candidates(tubes: &[Tube], capsules: &Capsules, ground: &Ground) -
             }
         }
         list.sort_by_key(|c| (c.cost, c.parent, c.from_tip));
-        let mut kept: Vec<Candidate> = Vec::with_capacity(CANDIDATES + 1);
+        let mut kept: Vec<Candidate> = Vec::with_capacity(CANDIDATES + 2);
         for candidate in list {
-            if kept.len() < CANDIDATES && kept.iter().all(|k| k.parent != candidate.parent) {
+            if kept.iter().all(|k| k.parent != candidate.parent) {
                 kept.push(candidate);
             }
         }
+        keep_few(&mut kept, tubes);
         kept.push(ground.candidate(index as u32, tube, tubes.len()));
         kept.sort_by_key(|c| (c.cost, c.parent));
         kept
     };
     tubes.par_iter().enumerate().map(of).collect()
+}
+
+/// The cheapest, and beside them the thickest of those that cost as good as nothing more: where many are born at
+/// one place, what bears them must not drop out.
+fn keep_few(list: &mut Vec<Candidate>, tubes: &[Tube]) {
+    let Some(best) = list.first().map(|c| c.cost) else { return };
+    let equal = list.iter().filter(|c| unit(c.cost - best) <= TIE);
+    let thickness = |c: &Candidate| tubes[c.parent as usize].thickness();
+    let thickest = equal.copied().reduce(|a, b| if thickness(&b) > thickness(&a) { b } else { a });
+    list.truncate(CANDIDATES);
+    if let Some(thickest) = thickest.filter(|t| list.iter().all(|c| c.parent != t.parent)) {
+        list.push(thickest);
+    }
 }
 
 /// The candidates as edges, in the order of children and costs.

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 /// Wood parts with fewer triangles per connected piece than this share no vertices: they are soup.
 const SOUP_RATIO: usize = 6;
-/// Soup that equal positions do not join is joined within this share of a vertex's shortest edge.
-const JITTER: f64 = 0.35;
+/// Soup that equal positions do not join is joined within this share of their faces' shortest edges.
+const JITTER: f64 = 0.45;
 
 /// All wood, cut into pieces that are joined through edges.
 #[derive(Debug, Default)]
@@ -196,17 +196,16 @@ fn keep_thin(corners: &Corners, pieces: &[u32], to: &mut [u32]) {
     }
 }
 
-/// Joins nodes of soup that lie within a share of their shortest edges: scans and printed files jitter.
+/// Joins nodes of soup that lie within a share of their faces' shortest edges: scans and printed files jitter.
 fn weld_near(corners: &mut Corners, soup: &[bool]) {
     let points = &corners.points;
     let mut shortest = vec![f64::INFINITY; points.len()];
-    for (_, nodes) in corners.nodes.chunks_exact(3).enumerate().filter(|(f, _)| soup[*f]) {
-        for (a, b) in [(nodes[0], nodes[1]), (nodes[1], nodes[2]), (nodes[2], nodes[0])] {
-            let length = points[a as usize].distance(points[b as usize]);
-            for n in [a, b].into_iter().filter(|_| length > 0.0) {
-                shortest[n as usize] = shortest[n as usize].min(length);
-            }
-        }
+    for (_, face) in corners.nodes.chunks_exact(3).enumerate().filter(|(f, _)| soup[*f]) {
+        // The face's shortest edge, for all its corners: the one opposite may be far shorter than those at a corner.
+        let length = |a: usize, b: usize| points[face[a] as usize].distance(points[face[b] as usize]);
+        let least =
+            [length(0, 1), length(1, 2), length(2, 0)].into_iter().filter(|l| *l > 0.0).fold(f64::INFINITY, f64::min);
+        face.iter().for_each(|&n| shortest[n as usize] = shortest[n as usize].min(least));
     }
     let used: Vec<u32> = (0..points.len() as u32).filter(|&n| shortest[n as usize].is_finite()).collect();
     let boxes: Vec<foliar_space::Aabb> = used

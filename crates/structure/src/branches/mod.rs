@@ -17,7 +17,7 @@ mod mesh;
 mod params;
 mod tube;
 
-pub use accuracy::{Accuracy, Truth};
+pub use accuracy::{Accuracy, Truth, Wrong};
 pub use find::find;
 pub use hang::continues;
 pub use layer::to_layer;

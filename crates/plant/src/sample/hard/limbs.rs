@@ -147,7 +147,7 @@ impl Wood {
         let mut limbs = self.tree();
         let wood = Wood { counts: [0, 0, 0], ..self.clone() };
         for root in 0..roots {
-            let turn = 6.283 * f64::from(root) / f64::from(roots);
+            let turn = std::f64::consts::TAU * f64::from(root) / f64::from(roots);
             let along = DVec3::new(libm::cos(turn), -0.12, libm::sin(turn)).normalize();
             let foot = DVec3::Y * 0.12;
             wood.push(&mut limbs, Some(0), 1, &Growth { root: foot, along, length: 1.4, radius: 0.08 });

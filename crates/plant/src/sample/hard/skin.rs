@@ -41,7 +41,7 @@ pub struct Skin {
     pub soup: bool,
     /// Each coordinate is moved by up to so many diagonals of the wood.
     pub jitter: f64,
-    /// Pairs of neighboring tubes that share one vertex.
+    /// So many tubes share one vertex with their parents.
     pub shared_vertices: usize,
     /// Parts that the tubes are dealt to in turn.
     pub parts: usize,
@@ -81,7 +81,7 @@ pub fn plant(limbs: &[Limb], skin: &Skin, seed: u64) -> Plant {
         }
         build.branch(wood[index % wood.len()], &piece, &rings, &limb.axis, limb.parent);
     }
-    share_vertices(&mut build, wood[0], limbs.len(), skin.shared_vertices);
+    share_vertices(&mut build, wood[0], limbs, skin.shared_vertices);
     let deepest = limbs.iter().map(|l| l.level).max().unwrap_or(0);
     let leaves = build.part("leaves", Role::Leaf, green, DAffine3::IDENTITY);
     for (index, limb) in limbs.iter().enumerate().filter(|(_, l)| l.level == deepest) {
@@ -183,15 +183,19 @@ fn torn(piece: &Piece, rings: &[u32], jitter: f64, seed: u64) -> (Piece, Vec<u32
     (out, of_vertex)
 }
 
-/// Lets tubes share one position: the last vertex of one and the last of the next but some.
-fn share_vertices(build: &mut Build, part: usize, limbs: usize, pairs: usize) {
+/// Lets the last tubes share a position with their parents: their first vertex and the parent's nearest are one.
+fn share_vertices(build: &mut Build, part: usize, limbs: &[Limb], pairs: usize) {
     let starts = build.hierarchy.starts();
     let part = &mut build.base.parts[part];
-    for pair in 0..pairs.min(limbs / 3) {
-        let end = |limb: usize| starts.get(limb + 1).copied().unwrap_or(part.positions.len()) - 1;
-        let (a, b) = (end(limbs - 1 - 2 * pair), end(limbs - 2 - 2 * pair));
-        part.positions[b] = part.positions[a];
-        part.position_ids[b] = part.position_ids[a];
+    for child in limbs.len() - pairs.min(limbs.len())..limbs.len() {
+        let Some(parent) = limbs[child].parent.map(|p| p as usize) else { continue };
+        let (own, place) = (starts[child], part.positions[starts[child]]);
+        let distance = |vertex: &usize| part.positions[*vertex].distance(place);
+        let others = starts[parent]..starts[parent + 1];
+        if let Some(other) = others.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+            part.positions[own] = part.positions[other];
+            part.position_ids[own] = part.position_ids[other];
+        }
     }
 }
 
