@@ -126,11 +126,12 @@ pub fn write_files_with(
     files: &[OutputFile],
     hook: &mut dyn FnMut(&Path, Step) -> std::io::Result<()>,
 ) -> Result<Outcome, CarrierError> {
-    if is_unchanged(files) {
+    let changed: Vec<&OutputFile> = files.iter().filter(|file| !is_unchanged(std::slice::from_ref(*file))).collect();
+    if changed.is_empty() {
         return Ok(Outcome::Unchanged);
     }
     let mut ready = Vec::new();
-    for file in files {
+    for file in changed {
         let made = stage(file, hook).map_err(|source| output_error(&file.path, source))?;
         ready.extend(made.map(|(temporary, target)| (temporary, target, &file.path)));
     }

@@ -47,6 +47,20 @@ fn equal_bytes_leave_a_file_untouched() {
     assert_eq!(names_in(folder.path()), ["tree.glb"]);
 }
 
+/// ninja's restat works file by file: a new picture does not make a tree look new.
+#[test]
+fn of_several_files_only_those_with_new_bytes_are_touched() {
+    let folder = folder();
+    write_files(&files(folder.path(), "old")).unwrap();
+    let [kept, replaced] = ["tree.bin", "tree.gltf"].map(|name| folder.path().join(name));
+    std::fs::File::open(&kept).unwrap().set_modified(std::time::SystemTime::UNIX_EPOCH).unwrap();
+    let mut next = files(folder.path(), "old");
+    next[1].bytes = b"new".to_vec();
+    assert_eq!(write_files(&next).unwrap(), Outcome::Written);
+    assert_eq!(std::fs::metadata(&kept).unwrap().modified().unwrap(), std::time::SystemTime::UNIX_EPOCH);
+    assert_eq!(std::fs::read(&replaced).unwrap(), b"new");
+}
+
 /// An error at any step of either file: the error names the file, nothing is left over, and each file
 /// is old or new as a whole; the last one, the commit, is old.
 #[test]
