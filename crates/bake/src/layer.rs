@@ -25,7 +25,7 @@ pub struct ColumnKey {
 
 /// What one step makes: its arrays and one record. Rasters and meshes join when a room makes them.
 /// Keys sort by (mesh, primitive, name) and (class, property): the order of every file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layer {
     /// Who made it, from what.
     pub record: Record,

@@ -20,7 +20,7 @@ pub struct MeasuredError {
 }
 
 /// What one layer was made by and from. Self-contained: names only, no indices into a glTF.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct Record {
     /// Step or room.

@@ -5,7 +5,6 @@ use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
 use foliar_plant::{Base, Leaf, NO_LEAF, Part, Structure};
 use foliar_schema::{Record, Role, names};
 use glam::Vec3;
-use serde_json::Map;
 use std::collections::BTreeMap;
 
 /// The layer of a structure: roles, leaf ids on leaf parts (null id = number of leaves), table
@@ -27,13 +26,9 @@ pub fn to_layer(structure: &Structure, base: &Base) -> Layer {
     let record = Record {
         room: names::ROOM_STRUCTURE.into(),
         version: VERSION,
-        given: Map::new(),
-        resolved: Map::new(),
         reads: BTreeMap::from([("base".into(), foliar_bake::base_hash(base))]),
         writes,
-        errors: Vec::new(),
-        facts: Map::new(),
-        more: Map::new(),
+        ..Record::default()
     };
     let roles = base.parts.iter().map(|p| p.place).zip(structure.roles.iter().copied()).collect();
     Layer { record, attributes, columns, roles }

@@ -7,8 +7,7 @@ use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
 use foliar_carrier::{Asset, Document, read, read_bytes, second_reader};
 use foliar_plant::Place;
 use foliar_schema::{Import, Record, Role, names};
-use serde_json::{Map, Value, json};
-use std::collections::BTreeMap;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// The folder of shared trees, where there is one.
@@ -73,26 +72,10 @@ fn record(room: &str, reads: &[(&str, &str)], layer: Layer) -> Layer {
         resolved: given,
         reads: reads.iter().map(|(k, v)| (k.to_string(), v.to_string())).collect(),
         writes,
-        errors: Vec::new(),
         facts: json!({"tau": 1e-7}).as_object().unwrap().clone(),
-        more: Map::new(),
+        ..Record::default()
     };
     Layer { record, ..layer }
-}
-
-pub fn empty_layer() -> Layer {
-    let record = Record {
-        room: String::new(),
-        version: 0,
-        given: Map::new(),
-        resolved: Map::new(),
-        reads: BTreeMap::new(),
-        writes: Vec::new(),
-        errors: Vec::new(),
-        facts: Map::new(),
-        more: Map::new(),
-    };
-    Layer { record, attributes: BTreeMap::new(), columns: BTreeMap::new(), roles: BTreeMap::new() }
 }
 
 /// Leaf rows of the layers that [`layers_for`] makes.
@@ -100,7 +83,7 @@ pub const ROWS: usize = 7;
 
 /// A layer of structure: every second part is a leaf, its vertices spread over the rows.
 pub fn structure_for(asset: &Asset, rows: usize) -> Layer {
-    let mut layer = empty_layer();
+    let mut layer = Layer::default();
     for (index, part) in asset.base.parts.iter().enumerate() {
         let role = if index % 2 == 0 { Role::Leaf } else { Role::Wood };
         layer.roles.insert(part.place, role);
@@ -128,7 +111,7 @@ pub fn structure_for(asset: &Asset, rows: usize) -> Layer {
 
 /// A layer of density over leaves and wood.
 pub fn density_for(asset: &Asset, structure: &Layer) -> Layer {
-    let mut layer = empty_layer();
+    let mut layer = Layer::default();
     for part in &asset.base.parts {
         let count = part.positions.len();
         let ambient = (0..count).map(|v| v as f32 / count as f32).collect();

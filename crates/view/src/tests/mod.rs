@@ -9,8 +9,6 @@ use foliar_plant::{AlphaMode, Base, Material, Part, Place, Plant, Raster, Struct
 use foliar_schema::{Record, Role};
 use glam::{DAffine3, Vec2, Vec3};
 use image::{Rgba, RgbaImage};
-use serde_json::Map;
-use std::collections::BTreeMap;
 
 /// A rectangle around `center` with half edges `right` and `up`, normal right x up, uv from the upper left.
 pub(crate) fn quad(center: Vec3, right: Vec3, up: Vec3) -> Part {
@@ -57,20 +55,9 @@ pub(crate) fn raster(width: u32, pixels: &[[u8; 4]]) -> Raster {
 pub(crate) fn layer(mesh: u32, attributes: &[(&str, Array)]) -> Layer {
     let key = |name: &str| AttributeKey { place: Place { mesh, primitive: 0 }, name: name.into() };
     Layer {
-        record: Record {
-            room: "density".into(),
-            version: 1,
-            given: Map::new(),
-            resolved: Map::new(),
-            reads: BTreeMap::new(),
-            writes: Vec::new(),
-            errors: Vec::new(),
-            facts: Map::new(),
-            more: Map::new(),
-        },
+        record: Record { room: "density".into(), version: 1, ..Record::default() },
         attributes: attributes.iter().map(|(name, array)| (key(name), array.clone())).collect(),
-        columns: BTreeMap::new(),
-        roles: BTreeMap::new(),
+        ..Layer::default()
     }
 }
 
