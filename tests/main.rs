@@ -17,6 +17,7 @@ mod inspect;
 mod laws;
 mod layers;
 mod moving;
+mod pack;
 mod plants;
 mod streams;
 mod view;
