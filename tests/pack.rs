@@ -40,7 +40,7 @@ fn floats(json: &Value, binary: &[u8], primitive: &Value, name: &str) -> Option<
 /// What a loader must find, from the master alone: per mesh, attributes with their numbers.
 fn expected(master: &Path, engine: &str) -> Value {
     let (json, binary) = open_glb(master);
-    let mut meshes = Map::new();
+    let (mut meshes, mut sheets) = (Map::new(), Map::new());
     for node in json["nodes"].as_array().unwrap().iter().filter(|node| node["mesh"].is_u64()) {
         let primitive = &json["meshes"][node["mesh"].as_u64().unwrap() as usize]["primitives"][0];
         let read = |name: &str| floats(&json, &binary, primitive, name);
@@ -61,12 +61,18 @@ fn expected(master: &Path, engine: &str) -> Value {
             let ids = primitive["extensions"]["EXT_mesh_features"]["featureIds"][0]["attribute"].as_u64().unwrap();
             attributes.push(("_LEAF_ID", thrice(&read(&format!("_FEATURE_ID_{ids}")).unwrap()), 0.0));
         }
+        let double = json["materials"][primitive["material"].as_u64().unwrap() as usize]["doubleSided"] == true;
+        if engine == "core" && double && read("_SOFT_NORMAL").is_some() {
+            let indices = &json["accessors"][primitive["indices"].as_u64().unwrap() as usize]["count"];
+            sheets.insert(node["name"].as_str().unwrap().into(), json!(indices.as_u64().unwrap() / 3));
+        }
         let one = |(name, values, tolerance): (&str, Vec<f64>, f64)| {
             (name.to_owned(), json!({"width": 3, "tolerance": tolerance, "values": values}))
         };
         meshes.insert(node["name"].as_str().unwrap().into(), attributes.into_iter().map(one).collect());
     }
-    json!({"engine": engine, "meshes": meshes})
+    assert_eq!(sheets.len(), usize::from(engine == "core"), "the crown is two-sided");
+    json!({"engine": engine, "meshes": meshes, "sheets": sheets})
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use crate::master::{Master, Piece};
 use crate::measure::Decode;
-use crate::{Carrier, PackError, Plan, tangents, turning};
+use crate::{Carrier, PackError, Plan, tangents};
 use foliar_carrier::edit::{NewAttribute, Numbers, Stored, attribute};
 use foliar_schema::names;
 
@@ -34,7 +34,8 @@ pub(crate) fn plan(master: &Master) -> Result<Plan, PackError> {
     Ok(plan)
 }
 
-/// NORMAL, and what follows from it: tangents stay at right angles, triangles show their outer side.
+/// NORMAL, and what follows from it: tangents stay at right angles, and leaves have no back whose normal a
+/// viewer would turn over.
 fn realign(master: &Master, piece: &Piece, plan: &mut Plan) -> Result<(), PackError> {
     let place = piece.part.place;
     let normals: Vec<f32> = (0..piece.count()).flat_map(|v| piece.normal_of(v).as_vec3().to_array()).collect();
@@ -47,7 +48,7 @@ fn realign(master: &Master, piece: &Piece, plan: &mut Plan) -> Result<(), PackEr
     }
     plan.floats(place, NORMAL, 3, normals);
     if piece.double_sided {
-        plan.edits.turned.insert(place, turning::turned(piece));
+        plan.edits.sheets.insert(place);
     }
     Ok(())
 }

@@ -8,7 +8,6 @@ mod luft07;
 mod master;
 mod measure;
 mod tangents;
-mod turning;
 
 #[cfg(test)]
 mod tests;

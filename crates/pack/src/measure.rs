@@ -64,8 +64,8 @@ pub struct PackReport {
     pub base_bytes_per_vertex: f64,
     /// Most that packing added to a vertex.
     pub added_bytes_per_vertex: usize,
-    /// Triangles that were wound the other way.
-    pub turned_triangles: usize,
+    /// Triangles that two-sided leaves got for their backs, over the same vertices.
+    pub added_triangles: usize,
     /// One entry per channel that any primitive has.
     pub attributes: Vec<PackedAttribute>,
 }
@@ -85,6 +85,7 @@ pub(crate) fn report(engine: Engine, master: &Master, plan: &Plan, packed: &Docu
         let bytes: usize = master.pieces.iter().map(|piece| piece.count() * of(document, piece)).sum();
         bytes as f64 / vertices.max(1) as f64
     };
+    let sheets = &plan.edits.sheets;
     let added = |piece: &Piece| of(packed, piece).saturating_sub(of(master.document, piece));
     Ok(PackReport {
         engine,
@@ -92,7 +93,12 @@ pub(crate) fn report(engine: Engine, master: &Master, plan: &Plan, packed: &Docu
         bytes_per_vertex: mean(packed),
         base_bytes_per_vertex: mean(master.document),
         added_bytes_per_vertex: master.pieces.iter().map(added).max().unwrap_or(0),
-        turned_triangles: plan.edits.turned.values().flatten().filter(|turned| **turned).count(),
+        added_triangles: master
+            .pieces
+            .iter()
+            .filter(|p| sheets.contains(&p.part.place))
+            .map(|p| p.part.triangles.len())
+            .sum(),
         attributes,
     })
 }

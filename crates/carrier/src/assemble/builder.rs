@@ -27,6 +27,20 @@ pub(crate) enum Content {
     Indices,
 }
 
+impl Content {
+    /// Says in a view what it is for.
+    pub fn mark(self, view: &mut Value) {
+        match self {
+            Content::Attribute { stride } => {
+                view["byteStride"] = stride.into();
+                view["target"] = ARRAY_BUFFER.into();
+            }
+            Content::Indices => view["target"] = ELEMENT_ARRAY_BUFFER.into(),
+            Content::Column => {}
+        }
+    }
+}
+
 /// The document under assembly, and what is said of it.
 pub(crate) struct Builder {
     pub document: Document,
@@ -111,14 +125,7 @@ impl Builder {
         buffer.resize(buffer.len().next_multiple_of(alignment), 0);
         let mut view = json!({"buffer": 0, "byteOffset": buffer.len(), "byteLength": bytes.len()});
         buffer.extend_from_slice(bytes);
-        match content {
-            Content::Attribute { stride } => {
-                view["byteStride"] = stride.into();
-                view["target"] = ARRAY_BUFFER.into();
-            }
-            Content::Indices => view["target"] = ELEMENT_ARRAY_BUFFER.into(),
-            Content::Column => {}
-        }
+        content.mark(&mut view);
         view["name"] = name.into();
         self.push(&[], "bufferViews", view)
     }

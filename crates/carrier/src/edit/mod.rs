@@ -1,17 +1,16 @@
-//! Replacing what a base holds, for files that ship: attributes, and the side that a triangle is seen
-//! from. In place where the bytes belong to nothing else, so that a packed file is no longer than it
-//! must be; appended where they do not.
+//! Replacing what a base holds, for files that ship: attributes, and the back sides of leaves. In place
+//! where the bytes belong to nothing else, so that a packed file is no longer than it must be; appended
+//! where they do not.
 
+mod owned;
 mod read;
+mod sheets;
 mod slot;
 
 pub use read::{Stored, attribute, attribute_names, bytes_per_vertex};
 
-use crate::accessor::Source;
 use crate::assemble::{Builder, Content, primitive_mut};
-use crate::document::{index_of, primitives};
 use crate::notes::view_name;
-use crate::triangles::{self, Mode};
 use crate::{CarrierError, Document};
 use foliar_plant::Place;
 use serde_json::{Value, json};
@@ -84,8 +83,9 @@ pub struct Edits {
     pub attributes: Vec<NewAttribute>,
     /// Attributes that go, by primitive and name.
     pub removed: Vec<(Place, String)>,
-    /// Per primitive, which of its triangles show their other side as their front.
-    pub turned: BTreeMap<Place, Vec<bool>>,
+    /// Primitives of two-sided materials that become two one-sided sheets over the same vertices: neither
+    /// has a back whose normals a viewer would turn over.
+    pub sheets: BTreeSet<Place>,
 }
 
 /// Makes the changes.
@@ -102,9 +102,7 @@ pub fn edit(document: &Document, edits: &Edits) -> Result<Document, CarrierError
         let group: Vec<&NewAttribute> = edits.attributes.iter().filter(|a| a.name == name).collect();
         set_attributes(&mut builder, name, &group)?;
     }
-    for (place, turned) in &edits.turned {
-        turn(&mut builder, *place, turned)?;
-    }
+    sheets::add(&mut builder, &edits.sheets)?;
     Ok(builder.finish().0)
 }
 
@@ -119,10 +117,14 @@ fn set_attributes(builder: &mut Builder, name: &str, group: &[&NewAttribute]) ->
         check(&builder.document, new)?;
         let old = attributes_mut(&mut builder.document.json, new.place).and_then(|a| a.get(name)?.as_u64());
         let kind = (new.numbers.component(), kind(new.width), new.numbers.is_normalized());
-        let slot = old.and_then(|accessor| Slot::find(&builder.document, accessor as usize, kind));
-        match slot {
-            Some(slot) => slot.write(&mut builder.document, new.numbers.bytes(), new.width * new.numbers.size()),
-            None => appended.entry((new.numbers.component(), new.width)).or_default().push(new),
+        let old = old.map(|accessor| accessor as usize);
+        if let Some(slot) = old.and_then(|accessor| Slot::find(&builder.document, accessor, kind)) {
+            slot.write(&mut builder.document, new.numbers.bytes(), new.width * new.numbers.size());
+        } else if let Some(old) = old.filter(|accessor| slot::is_sole(&builder.document, *accessor)) {
+            let (bytes, stride) = aligned(new);
+            owned::replace(&mut builder.document, old, definition(new), &bytes, Content::Attribute { stride });
+        } else {
+            appended.entry((new.numbers.component(), new.width)).or_default().push(new);
         }
     }
     appended.into_values().try_for_each(|group| append(builder, name, &group))
@@ -146,78 +148,41 @@ fn pointer(place: Place) -> String {
     format!("/meshes/{}/primitives/{}", place.mesh, place.primitive)
 }
 
-/// One view for all, each vertex on a multiple of four bytes (glTF 2.0 section 3.6.2.4).
-fn append(builder: &mut Builder, name: &str, group: &[&NewAttribute]) -> Result<(), CarrierError> {
-    let Some(first) = group.first() else { return Ok(()) };
-    let size = first.width * first.numbers.size();
+/// Bytes with each vertex on a multiple of four (glTF 2.0 section 3.6.2.4), and how many each takes.
+fn aligned(new: &NewAttribute) -> (Vec<u8>, usize) {
+    let size = new.width * new.numbers.size();
     let stride = size.next_multiple_of(4);
-    let mut bytes = Vec::new();
-    let mut offsets = Vec::new();
-    for new in group {
-        offsets.push(bytes.len());
-        for vertex in new.numbers.bytes().chunks_exact(size) {
-            bytes.extend_from_slice(vertex);
-            bytes.resize(bytes.len().next_multiple_of(4), 0);
-        }
+    let padding = [0; 4];
+    let vertices = new.numbers.bytes().chunks_exact(size);
+    (vertices.flat_map(|vertex| vertex.iter().chain(&padding[..stride - size])).copied().collect(), stride)
+}
+
+/// An accessor but for its place.
+fn definition(new: &NewAttribute) -> Value {
+    let count = new.numbers.bytes().len() / (new.width * new.numbers.size());
+    let mut accessor = json!({"componentType": new.numbers.component(), "count": count, "type": kind(new.width)});
+    if new.numbers.is_normalized() {
+        accessor["normalized"] = true.into();
     }
-    let view = builder.view(&view_name(PACK, name), &bytes, Content::Attribute { stride })?;
-    for (new, offset) in group.iter().zip(offsets) {
-        let count = new.numbers.bytes().len() / size;
-        let mut accessor = json!({
-            "bufferView": view, "byteOffset": offset, "componentType": new.numbers.component(),
-            "count": count, "type": kind(new.width)
-        });
-        if new.numbers.is_normalized() {
-            accessor["normalized"] = true.into();
-        }
+    accessor
+}
+
+/// One view for all.
+fn append(builder: &mut Builder, name: &str, group: &[&NewAttribute]) -> Result<(), CarrierError> {
+    let parts: Vec<(Vec<u8>, usize)> = group.iter().map(|new| aligned(new)).collect();
+    let Some((_, stride)) = parts.first() else { return Ok(()) };
+    let content = Content::Attribute { stride: *stride };
+    let bytes: Vec<u8> = parts.iter().flat_map(|(bytes, _)| bytes).copied().collect();
+    let view = builder.view(&view_name(PACK, name), &bytes, content)?;
+    let mut offset = 0;
+    for (new, (bytes, _)) in group.iter().zip(&parts) {
+        let mut accessor = owned::with_view(definition(new), view);
+        accessor["byteOffset"] = offset.into();
+        offset += bytes.len();
         let index = builder.push(&[], "accessors", accessor)?;
         if let Some(attributes) = attributes_mut(&mut builder.document.json, new.place) {
             attributes.insert(name.into(), index.into());
         }
     }
     Ok(())
-}
-
-/// Turns triangles of one primitive to their other side; strips and fans become lists.
-fn turn(builder: &mut Builder, place: Place, turned: &[bool]) -> Result<(), CarrierError> {
-    let document = &builder.document;
-    let fail = |problem: String| CarrierError::input("base", pointer(place), problem, A_FAULT);
-    let Some(primitive) = primitives(document).find_map(|(at, p)| (at == place).then_some(p)) else {
-        return Err(fail("does not exist".into()));
-    };
-    let mode = Mode::of(primitive).ok_or_else(|| fail("has no triangles".into()))?;
-    let source = Source { document, file: "base" };
-    let vertices = read::vertices(document, place)?;
-    let mut list = triangles::read(source, primitive, mode, vertices, false, &pointer(place))?;
-    if list.len() != turned.len() {
-        return Err(fail(format!("{} triangles, {} are to be turned or not", list.len(), turned.len())));
-    }
-    list.iter_mut().zip(turned).filter(|(_, turned)| **turned).for_each(|(t, _)| t.swap(1, 2));
-    let flat: Vec<u32> = list.into_iter().flatten().collect();
-    let old = index_of(primitive, "indices").filter(|_| mode == Mode::List);
-    let component = old.and_then(|a| document.item("accessors", a)?.get("componentType")?.as_u64());
-    // 65,535 starts a strip anew, so that many vertices need wider indices.
-    let component = component.unwrap_or(if vertices < usize::from(u16::MAX) { 5123 } else { 5125 }) as u32;
-    let (bytes, size) = index_bytes(&flat, component);
-    if let Some(slot) = old.and_then(|a| Slot::find(document, a, (component, "SCALAR", false))) {
-        slot.write(&mut builder.document, &bytes, size);
-        return Ok(());
-    }
-    let view = builder.view(&view_name(PACK, "indices"), &bytes, Content::Indices)?;
-    let accessor = json!({"bufferView": view, "componentType": component, "count": flat.len(), "type": "SCALAR"});
-    let index = builder.push(&[], "accessors", accessor)?;
-    if let Some(primitive) = primitive_mut(&mut builder.document.json, place) {
-        primitive.insert("indices".into(), index.into());
-        primitive.shift_remove("mode");
-    }
-    Ok(())
-}
-
-/// Indices as a component type has them, and how many bytes each takes.
-fn index_bytes(indices: &[u32], component: u32) -> (Vec<u8>, usize) {
-    match component {
-        5121 => (indices.iter().map(|i| *i as u8).collect(), 1),
-        5123 => (indices.iter().flat_map(|i| (*i as u16).to_le_bytes()).collect(), 2),
-        _ => (indices.iter().flat_map(|i| i.to_le_bytes()).collect(), 4),
-    }
 }

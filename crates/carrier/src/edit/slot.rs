@@ -93,6 +93,26 @@ impl Slot {
     }
 }
 
+/// Whether an accessor has a view of the first buffer to itself, and is named once.
+pub(super) fn is_sole(document: &Document, accessor: usize) -> bool {
+    let Some(item) = document.item("accessors", accessor) else { return false };
+    let Some(span) = Span::of(document, item).filter(|_| item.get("sparse").is_none()) else { return false };
+    let view = document.item("bufferViews", span.view);
+    let plain = view.is_some_and(|v| index_of(v, "buffer") == Some(0) && v.get("extensions").is_none());
+    plain
+        && uses(document, accessor) == 1
+        && view_uses(document, span.view) == 1
+        && is_alone(document, accessor, &view_span(document, span))
+}
+
+/// A span that reaches over all of its view.
+fn view_span(document: &Document, span: Span) -> Span {
+    let view = document.item("bufferViews", span.view);
+    let number = |key: &str| view.and_then(|v| index_of(v, key)).unwrap_or(0);
+    let start = number("byteOffset");
+    Span { bytes: start..start.saturating_add(number("byteLength")), inside: None, ..span }
+}
+
 /// How often meshes, skins and animations name an accessor.
 fn uses(document: &Document, accessor: usize) -> usize {
     let is = |value: &Value| usize::from(value.as_u64() == Some(accessor as u64));
@@ -107,6 +127,16 @@ fn uses(document: &Document, accessor: usize) -> usize {
     let skins: usize = document.list("skins").iter().filter_map(|s| s.get("inverseBindMatrices")).map(is).sum();
     let samplers = document.list("animations").iter().filter_map(|a| a.get("samplers")?.as_array()).flatten();
     meshes + skins + samplers.map(|sampler| each(Some(sampler))).sum::<usize>()
+}
+
+/// How often accessors and images name a view.
+fn view_uses(document: &Document, view: usize) -> usize {
+    let of_accessor = |accessor: &Value| {
+        let sparse = ["/sparse/indices", "/sparse/values"].into_iter().filter_map(|part| accessor.pointer(part));
+        sparse.chain([accessor]).filter(|part| index_of(part, "bufferView") == Some(view)).count()
+    };
+    let images = document.list("images").iter().filter(|image| index_of(image, "bufferView") == Some(view)).count();
+    document.list("accessors").iter().map(of_accessor).sum::<usize>() + images
 }
 
 /// Whether no other accessor and no other view reads a byte of it.

@@ -52,7 +52,9 @@ fn the_rest_of_the_base_comes_through_and_the_file_grows_by_the_color_alone() {
     let packed = pack(&asset, Engine::Core).unwrap().document;
     assert_eq!(stored(&packed, "POSITION"), stored(&asset.document, "POSITION"));
     let (before, after) = (asset.document.buffers[0].len(), packed.buffers[0].len());
-    assert_eq!(after.next_multiple_of(4), before.next_multiple_of(4) + 16 * 4, "four bytes per vertex");
+    // Eight triangles of three 16-bit indices; a cut leaves up to 8 bytes, and both ends are padded.
+    let wanted = before + 16 * 4 + 8 * 3 * 2;
+    assert!((wanted..=wanted + 16).contains(&after), "four bytes per vertex, six per triangle: {after}, {wanted}");
     assert_eq!(packed.list("accessors").len(), asset.document.list("accessors").len() + 1);
     let text = packed.json.to_string();
     for gone in [names::EXTENSION, names::AMBIENT, names::SOFT_NORMAL, names::FEATURE_ID_PREFIX, names::CLASS_LEAF] {
@@ -125,46 +127,61 @@ fn a_tangent_along_the_new_normal_finds_another_way() {
     assert!((Vec3::from_slice(&lost).length() - 1.0).abs() <= 1e-6);
 }
 
-/// Normals of all triangles as they are wound, with the first corner's vertex.
-fn sides(asset: &foliar_carrier::Asset) -> Vec<(usize, DVec3)> {
-    let part = &asset.base.parts[0];
-    let side = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| part.rest_position(v as usize));
-        (t[0] as usize, (b - a).cross(c - a))
-    };
-    part.triangles.iter().map(side).collect()
-}
-
 fn again(document: &Document) -> foliar_carrier::Asset {
     let glb = document.to_glb().unwrap();
     foliar_carrier::read_bytes(glb, "packed.glb", std::path::Path::new(""), &Default::default()).unwrap()
 }
 
-#[test]
-fn the_front_of_a_two_sided_leaf_is_where_its_realigned_normal_points() {
-    for mirrored in [false, true] {
-        let mut file = leaves();
-        if mirrored {
-            file.json["nodes"][0]["scale"] = serde_json::json!([1, 1, -1]);
-        }
-        let packed = pack(&master(&file, 4), Engine::Core).unwrap();
-        assert_eq!(packed.report.turned_triangles, 4, "two of four leaves");
-        let asset = again(&packed.document);
-        for (vertex, side) in sides(&asset) {
-            let part = &asset.base.parts[0];
-            assert!(part.normal_to_rest(part.normals[vertex].as_dvec3()).dot(side) > 0.0, "{mirrored} {vertex}");
-        }
-    }
+/// Triangles with their first corner first, sorted: whatever order they stand in.
+fn wound(asset: &foliar_carrier::Asset) -> Vec<[u32; 3]> {
+    let turned = |t: &[u32; 3]| {
+        let first = (0..3).min_by_key(|i| t[*i]).unwrap();
+        [t[first], t[(first + 1) % 3], t[(first + 2) % 3]]
+    };
+    let mut list: Vec<[u32; 3]> = asset.base.parts[0].triangles.iter().map(turned).collect();
+    list.sort_unstable();
+    list
 }
 
 #[test]
-fn one_sided_leaves_stay_as_they_are_wound() {
+fn two_sided_leaves_become_two_sheets_and_neither_has_a_back_to_be_turned_over() {
+    let asset = master(&leaves(), 4);
+    let packed = pack(&asset, Engine::Core).unwrap();
+    assert_eq!(packed.report.added_triangles, 8);
+    let again = again(&packed.document);
+    assert!(!again.base.materials[0].double_sided);
+    let front = wound(&asset);
+    let mut both = front.clone();
+    both.extend(front.iter().map(|[a, b, c]| [*a, *c, *b]));
+    both.sort_unstable();
+    assert_eq!(wound(&again), both);
+    assert_eq!(again.base.parts[0].positions, asset.base.parts[0].positions, "over the same vertices");
+}
+
+#[test]
+fn one_sided_leaves_stay_as_they_are() {
     let mut file = leaves();
     file.json["materials"][0]["doubleSided"] = false.into();
     let asset = master(&file, 4);
     let packed = pack(&asset, Engine::Core).unwrap();
-    assert_eq!(packed.report.turned_triangles, 0);
+    assert_eq!(packed.report.added_triangles, 0);
     assert_eq!(again(&packed.document).base.parts[0].triangles, asset.base.parts[0].triangles);
+}
+
+#[test]
+fn a_material_that_others_need_two_sided_is_copied() {
+    let mut file = leaves();
+    let other = file.primitive().clone();
+    file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
+        serde_json::json!([{"material": 0, "variants": [0]}]);
+    file.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(other);
+    let packed = pack(&master(&file, 4), Engine::Core).unwrap().document;
+    let [first, second] = [0, 1].map(|p| packed.json["meshes"][0]["primitives"][p].clone());
+    assert_eq!((&first["material"], &second["material"]), (&1.into(), &0.into()));
+    assert_eq!(first["extensions"]["KHR_materials_variants"]["mappings"][0]["material"], 1);
+    let sides: Vec<_> = packed.list("materials").iter().map(|m| m["doubleSided"].as_bool()).collect();
+    assert_eq!(sides, [Some(true), None]);
+    assert_eq!(packed.json["materials"][0]["name"], packed.json["materials"][1]["name"]);
 }
 
 #[test]
