@@ -32,7 +32,9 @@ pub fn run() -> Result<()> {
     }
     let python = std::env::var(PYTHON).unwrap_or_else(|_| "python3".into());
     if !starts(Command::new(&python).args(["-c", "import bpy"])) {
-        run_tests::skip(&format!("Blender: {python} cannot import bpy: pip install bpy==5.0.1, for Python 3.11, or name another Python in {PYTHON}"));
+        run_tests::skip(&format!(
+            "Blender: {python} cannot import bpy: pip install bpy==5.0.1, for Python 3.11, or name another Python in {PYTHON}"
+        ));
     } else if HASH_SEEDS.iter().any(|seed| blender(&python, seed, &files).is_err()) {
         bad.push("Blender");
     }
