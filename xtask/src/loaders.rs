@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 const FOLDER: &str = "xtask/loaders";
 /// Names the Python that has bpy; unset it is python3.
-const PYTHON: &str = "FOLIAR_PYTHON";
+const PYTHON: &str = "BLENDER_PYTHON";
 /// Blender 5.0.1 fails on some orders of a hash and not on others: so many are tried.
 const HASH_SEEDS: [&str; 4] = ["0", "1", "2", "3"];
 
