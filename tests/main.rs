@@ -17,7 +17,7 @@ mod inspect;
 mod laws;
 mod layers;
 mod moving;
-mod pack;
+mod neighbors;
 mod plants;
 mod streams;
 mod view;

@@ -35,6 +35,7 @@ complete -c foliar-density -l channels -d 'Which channels are written. [default 
 ambient\t'`_AMBIENT` only.'
 normals\t'`_SOFT_NORMAL` only.'"
 complete -c foliar-density -l quality -d 'Error of the sky\'s normals and ambient term, rms, in visible steps of each channel: 1 cannot be seen, 4 is a preview; nothing said: what the scene asks for. k_a of Luft07 eq. 4 is exact either way. [above 0]' -r
+complete -c foliar-density -l neighbor -d 'Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.' -r
 complete -c foliar-density -l blend -d 'Share of the original normal in the realigned one (Luft07 section 4). [at least 0, at most 1, default 0.0]' -r
 complete -c foliar-density -l surface-cell-m -d 'Edge of a cell of the implicit surface, meters; nothing said: a quarter of the radius of influence. [meters, above 0]' -r
 complete -c foliar-density -l surface-memory-mb -d 'Most memory that the implicit surface and its making may take, megabytes. [above 0, default 4096.0]' -r
@@ -57,7 +58,7 @@ json\t''
 sarif\t''
 junit\t''
 github\t''"
-complete -c foliar-density -l keep-going -d 'Goes on with the other inputs where one fails'
+complete -c foliar-density -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar-density -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar-density -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar-density -l dry-run -d 'Prints what would be done and stops'

@@ -16,7 +16,14 @@ complete -c foliar-view -l height-px -d 'Height of the picture in pixels; the le
 complete -c foliar-view -l samples -d 'Rays per pixel. [at least 1, at most 1024, default 16]' -r
 complete -c foliar-view -l look -d 'How the tree is lit, where no channel is asked for. [default "baked"]' -r -f -a "plain\t'As the file came: its own normals, the same ambient light everywhere.'
 baked\t'With what was baked: realigned normals, ambient coefficient.'
-stock\t'As any glTF viewer does without foliar\'s shaders: NORMAL turned by the triangle\'s side, `COLOR_0` as a factor on the color, back faces of one-sided materials left out, no shadows on the tree.'"
+stock\t'As any glTF viewer does without foliar\'s shaders: NORMAL turned by the triangle\'s side, `COLOR_0` as a factor on the color, back faces of one-sided materials left out, no shadows on the tree.'
+lines\t'A pen drawing: ink where the normals turn by more than `line_angle_deg`, and round the silhouette (Luft07 Figure 7).'"
+complete -c foliar-view -l line-normals -d 'Normals that `lines` follow. [default "baked"]' -r -f -a "plain\t'Those of the file.'
+baked\t'The realigned ones, where they were baked.'"
+complete -c foliar-view -l line-angle-deg -d 'Angle between the normals of neighboring places from which `lines` draw an edge, degrees. [degrees, at least 0, at most 180, default 40.0]' -r
+complete -c foliar-view -l line-width-px -d 'Width of `lines` in pixels. [pixels, at least 0.1, at most 16, default 1.2]' -r
+complete -c foliar-view -l line-detail-px -d 'Gaps and leaves smaller than this are left out of `lines`, pixels; 0 keeps all. [pixels, at least 0, at most 32, default 6.0]' -r
+complete -c foliar-view -l neighbor -d 'Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.' -r
 complete -c foliar-view -l channel -d 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.' -r
 complete -c foliar-view -l azimuth-deg -d 'Where the camera stands around the tree, degrees. [degrees, at least -360, at most 360, default 30.0]' -r
 complete -c foliar-view -l elevation-deg -d 'How far the camera stands above the tree\'s horizon, degrees. [degrees, at least -89, at most 89, default 10.0]' -r

@@ -171,7 +171,7 @@ _foliar() {
             return 0
             ;;
         foliar__subcmd__bake)
-            opts="-o -d -q -v -h --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --only --help"
+            opts="-o -d -q -v -h --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --neighbor --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --only --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -245,6 +245,10 @@ _foliar() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --neighbor)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --unit)
                     COMPREPLY=($(compgen -W "m cm mm in ft" -- "${cur}"))
                     return 0
@@ -293,7 +297,7 @@ _foliar() {
             return 0
             ;;
         foliar__subcmd__config)
-            opts="-q -v -h --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --unit --set --config --no-config --report --depfile --fail-on --threads --quiet --verbose --format --help"
+            opts="-q -v -h --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --neighbor --unit --set --config --no-config --report --depfile --fail-on --threads --quiet --verbose --format --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -340,6 +344,10 @@ _foliar() {
                     return 0
                     ;;
                 --quality)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --neighbor)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -523,7 +531,7 @@ _foliar() {
             return 0
             ;;
         foliar__subcmd__inspect)
-            opts="-q -v -h --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --unit --set --config --no-config --report --depfile --fail-on --threads --quiet --verbose --format --help"
+            opts="-q -v -h --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --neighbor --unit --set --config --no-config --report --depfile --fail-on --threads --quiet --verbose --format --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -573,6 +581,10 @@ _foliar() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --neighbor)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --unit)
                     COMPREPLY=($(compgen -W "m cm mm in ft" -- "${cur}"))
                     return 0
@@ -613,7 +625,7 @@ _foliar() {
             return 0
             ;;
         foliar__subcmd__rebake)
-            opts="-o -d -q -v -h --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help"
+            opts="-o -d -q -v -h --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --quality --neighbor --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -684,6 +696,10 @@ _foliar() {
                     return 0
                     ;;
                 --quality)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --neighbor)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -51,6 +51,7 @@ complete -c foliar -n "__fish_foliar_using_subcommand bake" -l leaf -d 'Parts th
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l wood -d 'Parts that are wood.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l neighbor -d 'Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
 mm\t'Millimeter.'
@@ -71,7 +72,7 @@ sarif\t''
 junit\t''
 github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l only -d 'Bakes this room only, whatever the scene requires; repeatable' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Goes on with the other inputs where one fails'
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l dry-run -d 'Prints what would be done and stops'
@@ -96,6 +97,7 @@ complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l leaf -d 'Parts 
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l wood -d 'Parts that are wood.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l neighbor -d 'Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
 mm\t'Millimeter.'
@@ -115,7 +117,7 @@ json\t''
 sarif\t''
 junit\t''
 github\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l keep-going -d 'Goes on with the other inputs where one fails'
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l keep-going -d 'Bakes the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l dry-run -d 'Prints what would be done and stops'
@@ -206,6 +208,7 @@ complete -c foliar -n "__fish_foliar_using_subcommand config" -l leaf -d 'Parts 
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l wood -d 'Parts that are wood.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand config" -l neighbor -d 'Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand config" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
 mm\t'Millimeter.'
@@ -241,6 +244,7 @@ complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l leaf -d 'Parts
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l wood -d 'Parts that are wood.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l other -d 'Parts that are no plant.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l quality -d 'rms error of each channel in its visible steps: 1 cannot be seen, 4 is a preview. [above 0, default 1.0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l neighbor -d 'Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.' -r
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
 mm\t'Millimeter.'

@@ -14,7 +14,6 @@ mod fixtures;
 #[cfg(feature = "foliar")]
 mod gallery;
 mod generated;
-mod loaders;
 mod obj_text;
 mod repo;
 mod run_tests;

@@ -1,34 +1,13 @@
 //! The trait of all rooms.
 
-use crate::{Array, AttributeKey, BakeError, ColumnKey};
+use crate::{Array, AttributeKey, BakeError, ColumnKey, Placed};
 use foliar_plant::{Plant, Raster};
 use foliar_schema::Scene;
-use glam::{DAffine3, DMat3, DVec3};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 /// Named rasters (thickness, normal, color of a leaf).
 pub type Maps = BTreeMap<String, Raster>;
-
-/// A neighbor plant where it stands, relative to the plant that is baked.
-#[derive(Debug)]
-pub struct Placed {
-    /// The neighbor.
-    pub plant: Plant,
-    /// From its rest frame to that of the plant that is baked.
-    pub transform: DAffine3,
-}
-
-impl Placed {
-    /// A neighbor whose origin stands at `offset_m`, scaled about that origin and turned by `yaw_deg` about the
-    /// vertical: from above counter-clockwise, +Z goes toward +X.
-    pub fn new(plant: Plant, offset_m: DVec3, yaw_deg: f64, scale: f64) -> Placed {
-        let (sine, cosine) = libm::sincos(yaw_deg.to_radians());
-        let axes = [DVec3::new(cosine, 0.0, -sine), DVec3::Y, DVec3::new(sine, 0.0, cosine)];
-        let [x, y, z] = axes.map(|axis| axis * scale);
-        Placed { plant, transform: DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation: offset_m } }
-    }
-}
 
 /// What a room may read. Never another room's layer.
 #[derive(Clone, Copy, Debug)]

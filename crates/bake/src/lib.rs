@@ -7,12 +7,14 @@ mod error;
 mod hash;
 pub mod laws;
 mod layer;
+mod placement;
 mod reframe;
 mod run;
 
 pub use array::Array;
-pub use baker::{Baked, Baker, Facts, Inputs, Maps, Needs, Placed, Progress, Quiet, Requirement, Rung};
+pub use baker::{Baked, Baker, Facts, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung};
 pub use error::BakeError;
 pub use hash::base_hash;
 pub use layer::{AttributeKey, ColumnKey, Layer};
+pub use placement::{Placed, Placement};
 pub use run::{Request, resolve_params, run};

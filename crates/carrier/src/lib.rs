@@ -9,7 +9,6 @@ mod accessor;
 mod assemble;
 mod container;
 mod document;
-pub mod edit;
 mod error;
 mod extract;
 pub mod images;

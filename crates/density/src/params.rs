@@ -2,7 +2,7 @@
 
 use crate::ROOM;
 use crate::surface::SurfaceParams;
-use foliar_bake::BakeError;
+use foliar_bake::{BakeError, Placement};
 use foliar_schema::Budget;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -124,6 +124,9 @@ pub struct Params {
     /// 4 is a preview; nothing said: what the scene asks for. k_a of Luft07 eq. 4 is exact either way.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub quality: Option<f64>,
+    /// Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the
+    /// rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.
+    pub neighbor: Vec<String>,
     /// Share of the original normal in the realigned one (Luft07 section 4).
     #[schemars(range(min = 0.0, max = 1.0))]
     pub blend: f64,
@@ -151,6 +154,7 @@ impl Default for Params {
             normals: NormalMode::default(),
             channels: Channels::default(),
             quality: None,
+            neighbor: Vec::new(),
             blend: 0.0,
             surface_cell_m: None,
             surface_memory_mb: SurfaceParams::default().memory_mb,
@@ -196,6 +200,10 @@ impl Params {
             ("surface_cell_m", cell, cell > 0.0, "above 0"),
             ("surface_memory_mb", self.surface_memory_mb, self.surface_memory_mb > 0.0, "above 0"),
         ];
+        for text in &self.neighbor {
+            let refuse = |reason| BakeError::Parameter { room: ROOM.into(), place: "neighbor".into(), reason };
+            Placement::parse(text).map_err(refuse)?;
+        }
         match rules.into_iter().find(|(_, value, holds, _)| !(value.is_finite() && *holds)) {
             None => Ok(()),
             Some((name, value, _, rule)) => Err(BakeError::Parameter {

@@ -45,13 +45,12 @@ codes! {
     LEAF_NONE = "LEAF-NONE", Warning, "No part is a leaf: rooms that need leaves have nothing to do; name them with --leaf.";
     LEAF_ZERO_AREA = "LEAF-ZERO-AREA", Note, "Pieces of leaf parts without area were kept in the base and given no leaf row.";
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";
-    PACK_BUDGET = "PACK-BUDGET", Warning, "Packing adds more bytes per vertex than scene.budget.bytes_per_vertex allows: raise it, or bake fewer channels.";
-    PACK_LEFT_OUT = "PACK-LEFT-OUT", Warning, "Attributes of the base that the engine cannot take beside foliar's were left out of the packed file.";
+    NEIGHBOR_COINCIDES = "NEIGHBOR-COINCIDES", Warning, "A neighbor is the plant itself, or another neighbor, at the same place: its foliage counts twice; move it or take it out.";
     RECORD_UNKNOWN = "RECORD-UNKNOWN", Note, "A record of an unknown room or a newer contract was kept as it is.";
     ROLE_MIXED = "ROLE-MIXED", Warning, "One part holds trunk and crown without a hint: split it in the modeller, or name its role.";
     ROLE_UNMATCHED = "ROLE-UNMATCHED", Warning, "A pattern of section `roles` matches no part: correct it, or take it out.";
     ROLE_UNSURE = "ROLE-UNSURE", Warning, "The role of a part is a guess: paste the printed lines into foliar.toml; or patterns of two roles match it: change one.";
-    STALE = "STALE", Warning, "The base has changed since a record was baked: run foliar rebake.";
+    STALE = "STALE", Warning, "The base, or a neighbor, has changed since a record was baked: run foliar rebake.";
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use crate::cache::Cache;
 use crate::console::Console;
 use crate::gather::Sources;
 use crate::load::{Loaded, load};
+use crate::neighbors::{self, Neighbors};
 use crate::options::{Mode, Options};
 use crate::outputs::{self, Job};
 use crate::plan::{self, Row};
@@ -39,7 +40,8 @@ pub struct Baking<'a> {
 /// # Errors
 /// [`Failure`]; the old output is intact.
 pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Product, Failure> {
-    let loaded = load(baking.sources, baking.options, &job.input)?;
+    let mut loaded = load(baking.sources, baking.options, &job.input)?;
+    let stands = neighbors::named(&mut loaded.settings)?;
     report.loaded(&loaded);
     baking.console.log(&report.lap("read"));
     if baking.again && !loaded.is_master {
@@ -49,12 +51,13 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
     let only = if baking.again { Some(recorded.as_slice()) } else { baking.only };
     let rows = plan::make(baking.bakers, &loaded.settings, only, &Facts::of(&loaded.plant))?;
     report.plan(&rows);
+    let neighbors = neighbors::load(baking, &job.input, &loaded, &rows, &stands, report)?;
     report.text = asked(baking, &loaded, &rows);
     let Some(output) = &job.output else { return Ok(Product::Planned) };
     if baking.options.mode == Mode::DryRun {
         return Ok(Product::Planned);
     }
-    let rooms = bake_rooms(baking, &loaded, &rows, report)?;
+    let rooms = bake_rooms(baking, &loaded, &neighbors, &rows, report)?;
     Ok(Product::Files(finish(baking, &loaded, &rows, &rooms, output, report)?))
 }
 
@@ -69,10 +72,16 @@ fn asked(baking: &Baking, loaded: &Loaded, rows: &[Row]) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join("\n"))
 }
 
-fn bake_rooms(baking: &Baking, loaded: &Loaded, rows: &[Row], report: &mut Report) -> Result<Vec<Room>, Failure> {
+fn bake_rooms(
+    baking: &Baking,
+    loaded: &Loaded,
+    neighbors: &Neighbors,
+    rows: &[Row],
+    report: &mut Report,
+) -> Result<Vec<Room>, Failure> {
     let bar = Bar::new(baking.console.draws_progress());
     let cache = baking.options.cache.as_deref().map(Cache::new);
-    let rooms = rooms::bake(loaded, rows, cache.as_ref(), &bar)?;
+    let rooms = rooms::bake(loaded, neighbors, rows, cache.as_ref(), &bar)?;
     report.find(rooms.iter().flat_map(|room| room.findings.iter().cloned()));
     baking.console.log(&report.lap("rooms"));
     Ok(rooms)

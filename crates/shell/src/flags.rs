@@ -3,6 +3,7 @@
 
 use crate::Failure;
 use crate::config::{Field, Fields, Kind, Origin, Settings, from_text};
+use crate::neighbors;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Command, ValueHint, value_parser};
 use foliar_bake::Baker;
@@ -18,8 +19,6 @@ pub enum Direct<'a> {
     Section(&'a str),
     /// Import only.
     Import,
-    /// Import, and what is packed.
-    Pack,
 }
 
 impl Direct<'_> {
@@ -27,15 +26,17 @@ impl Direct<'_> {
     pub fn fields<'f>(&'f self, fields: &'f Fields) -> impl Iterator<Item = &'f Field> {
         fields.all().iter().filter(move |field| match self {
             Direct::Import => field.section == "import",
-            Direct::Pack => field.section == "import" || field.section == "pack",
-            Direct::Assets => is_asset(field) || field.dotted() == QUALITY,
+            Direct::Assets => is_asset(field) || is_shared(field),
             Direct::Section(section) => is_asset(field) || field.section == *section,
         })
     }
 }
 
-/// The one parameter of the scene that every bake has as a flag.
-const QUALITY: &str = "scene.budget.quality";
+/// Parameters that every bake has as a flag, whatever their section.
+fn is_shared(field: &Field) -> bool {
+    let of_a_room = field.section != "view" && field.dotted().ends_with(neighbors::ENDING);
+    of_a_room || field.dotted() == "scene.budget.quality"
+}
 
 fn is_asset(field: &Field) -> bool {
     field.section == "import" || field.section == "roles"
@@ -65,6 +66,7 @@ fn field_arg(field: &Field) -> Arg {
 fn value_name(field: &Field) -> String {
     match (&field.kind, field.section.as_str()) {
         (Kind::List(_), "roles") => "PATTERN".into(),
+        (Kind::List(_), _) if field.dotted().ends_with(neighbors::ENDING) => "FILE@X,Y,Z[,YAW_DEG[,SCALE]]".into(),
         (Kind::Bool, _) => "true|false".into(),
         (Kind::Number, _) => "NUMBER".into(),
         (Kind::Integer, _) => "WHOLE NUMBER".into(),
@@ -205,16 +207,11 @@ pub fn with_conventions(command: Command, leaves: Leaves) -> Command {
         )
 }
 
-/// Flags of everything that takes several inputs and makes a file of each.
-pub fn with_batches(command: Command) -> Command {
-    command
-        .arg(path("directory", "DIR", "Writes DIR/NAME.glb for each input").short('d').conflicts_with("output"))
-        .arg(switch("keep-going", "Goes on with the other inputs where one fails"))
-}
-
 /// Flags of everything that bakes.
 pub fn with_baking(command: Command) -> Command {
-    with_batches(command)
+    command
+        .arg(path("directory", "DIR", "Writes DIR/NAME.glb for each input").short('d').conflicts_with("output"))
+        .arg(switch("keep-going", "Bakes the other inputs where one fails"))
         .arg(path("picture", "FILE.png", "Draws what was baked"))
         .arg(path("cache", "DIR", "Keeps layers by content: an unchanged room is not baked again"))
         .arg(switch("explain-roles", "Prints each part with its role and the evidence; without an output, stops there"))

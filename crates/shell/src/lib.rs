@@ -11,6 +11,7 @@ mod finding_formats;
 mod flags;
 mod gather;
 mod load;
+mod neighbors;
 mod options;
 mod outputs;
 mod plan;
@@ -24,4 +25,4 @@ mod telling;
 
 pub use commands::{Program, commands};
 pub use failure::Failure;
-pub use start::{foliar, foliar_import, foliar_pack, foliar_room, foliar_view};
+pub use start::{foliar, foliar_import, foliar_room, foliar_view};

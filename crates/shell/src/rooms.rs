@@ -2,6 +2,7 @@
 
 use crate::cache::Cache;
 use crate::load::Loaded;
+use crate::neighbors::{Around, Neighbors};
 use crate::plan::Row;
 use crate::{Failure, record};
 use foliar_bake::{Inputs, Layer, Maps, Progress, Request, run};
@@ -28,6 +29,7 @@ pub struct Room {
 /// The first room's failure, in the order of the plan.
 pub fn bake(
     loaded: &Loaded,
+    neighbors: &Neighbors,
     plan: &[Row],
     cache: Option<&Cache>,
     progress: &dyn Progress,
@@ -38,12 +40,13 @@ pub fn bake(
     ]);
     let needed: Vec<&Row> = plan.iter().filter(|row| row.needed).collect();
     let baked: Vec<Result<Room, Failure>> =
-        needed.into_par_iter().map(|row| one(loaded, row, &reads, cache, progress)).collect();
+        needed.into_par_iter().map(|row| one(loaded, &neighbors.of(row), row, &reads, cache, progress)).collect();
     baked.into_iter().collect()
 }
 
 fn one(
     loaded: &Loaded,
+    around: &Around,
     row: &Row,
     reads: &BTreeMap<String, String>,
     cache: Option<&Cache>,
@@ -51,14 +54,14 @@ fn one(
 ) -> Result<Room, Failure> {
     let start = Instant::now();
     let room = row.baker.room();
-    let found = cache.and_then(|cache| cache.get(room, row.baker.version(), &row.params, reads));
+    let reads: BTreeMap<_, _> = reads.iter().chain(&around.reads).map(|(n, h)| (n.clone(), h.clone())).collect();
+    let found = cache.and_then(|cache| cache.get(room, row.baker.version(), &row.params, &reads));
     let cached = found.is_some();
     let (mut layer, findings) = match found {
         Some(found) => found,
         None => {
-            let request =
-                Request { given: loaded.settings.given(room), implied: row.implied.clone(), reads: reads.clone() };
-            let inputs = Inputs { plant: Some(&loaded.plant), maps: &Maps::new(), neighbors: &[] };
+            let request = Request { given: loaded.settings.given(room), implied: row.implied.clone(), reads };
+            let inputs = Inputs { plant: Some(&loaded.plant), maps: &Maps::new(), neighbors: &around.placed };
             let (layer, findings) = run(row.baker, &inputs, &request, progress)?;
             if let Some(cache) = cache {
                 cache.put(&layer, &row.params, &findings)?;

@@ -5,7 +5,9 @@ mod camera;
 mod colors;
 mod difference;
 mod error;
+mod frame;
 mod legend;
+mod lines;
 mod mask;
 mod params;
 mod render;
@@ -21,8 +23,9 @@ mod tests;
 
 pub use difference::{Difference, difference};
 pub use error::ViewError;
-pub use params::{Background, Ground, Look, Shading, ViewParams};
-pub use render::render;
+pub use frame::Standing;
+pub use params::{Background, Ground, Look, Normals, Shading, ViewParams};
+pub use render::{render, render_among};
 pub use sheet::{Panel, bake_sheet, contact_sheet};
 
 use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png};

@@ -17,6 +17,20 @@ pub enum Look {
     /// As any glTF viewer does without foliar's shaders: NORMAL turned by the triangle's side, `COLOR_0` as a
     /// factor on the color, back faces of one-sided materials left out, no shadows on the tree.
     Stock,
+    /// A pen drawing: ink where the normals turn by more than `line_angle_deg`, and round the silhouette (Luft07
+    /// Figure 7).
+    Lines,
+}
+
+/// Which normals a pen drawing follows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Normals {
+    /// Those of the file.
+    Plain,
+    /// The realigned ones, where they were baked.
+    #[default]
+    Baked,
 }
 
 /// What lies behind the tree.
@@ -61,6 +75,19 @@ pub struct ViewParams {
     pub samples: u32,
     /// How the tree is lit, where no channel is asked for.
     pub look: Look,
+    /// Normals that `lines` follow.
+    pub line_normals: Normals,
+    /// Angle between the normals of neighboring places from which `lines` draw an edge, degrees.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub line_angle_deg: f64,
+    /// Width of `lines` in pixels.
+    #[schemars(range(min = 0.1, max = 16.0))]
+    pub line_width_px: f64,
+    /// Gaps and leaves smaller than this are left out of `lines`, pixels; 0 keeps all.
+    #[schemars(range(min = 0.0, max = 32.0))]
+    pub line_detail_px: f64,
+    /// Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.
+    pub neighbor: Vec<String>,
     /// Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.
     pub channel: Option<String>,
     /// Where the camera stands around the tree, degrees.
@@ -94,6 +121,11 @@ impl Default for ViewParams {
             height_px: 720,
             samples: 16,
             look: Look::default(),
+            line_normals: Normals::default(),
+            line_angle_deg: 40.0,
+            line_width_px: 1.2,
+            line_detail_px: 6.0,
+            neighbor: Vec::new(),
             channel: None,
             azimuth_deg: 30.0,
             elevation_deg: 10.0,
@@ -116,6 +148,8 @@ pub enum Shading {
     Baked,
     /// As [`Look::Stock`].
     Stock,
+    /// As [`Look::Lines`].
+    Lines(Normals),
     /// A channel or column in false colors, with a legend.
     Channel(String),
 }
@@ -128,6 +162,7 @@ impl ViewParams {
             (None, Look::Plain) => Shading::Plain,
             (None, Look::Baked) => Shading::Baked,
             (None, Look::Stock) => Shading::Stock,
+            (None, Look::Lines) => Shading::Lines(self.line_normals),
         }
     }
 
@@ -146,6 +181,9 @@ impl ViewParams {
             self.sun_azimuth_deg,
             self.sun_elevation_deg,
             self.exposure,
+            self.line_angle_deg,
+            self.line_width_px,
+            self.line_detail_px,
         ];
         // NaN would become null in JSON, which no range refuses.
         if numbers.iter().any(|n| !n.is_finite()) {

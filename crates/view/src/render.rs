@@ -1,9 +1,10 @@
 //! Draws a plant: rays through pixels, alpha tested inside the traversal, one shadow ray for four samples.
 
 use crate::camera::{self, Camera, PLANT_EDGE};
+use crate::frame::Standing;
 use crate::mask::Mask;
 use crate::scene::Scene;
-use crate::{Background, Ground, Shading, ViewError, ViewParams, colors, legend, shade};
+use crate::{Background, Ground, Shading, ViewError, ViewParams, colors, legend, lines, shade};
 use foliar_bake::Layer;
 use foliar_numerics::{r2_point, radical_inverse};
 use foliar_plant::Plant;
@@ -29,6 +30,7 @@ const GROUND_RADIUS: f32 = 1.5 * PLANT_EDGE as f32;
 /// - Light: sun with shadow, even sky times the ambient coefficient (1 where none was baked), half of
 ///   the sun's light on the back of a leaf shines through it. Below 0.6 tone mapping changes nothing.
 /// - [`Shading::Stock`] is lit by what a viewer knows that never heard of foliar, see [`crate::Look::Stock`].
+/// - [`Shading::Lines`] draws edges only, black on white (or on nothing, where the background is clear).
 /// - False colors are not lit, so that they are those of the legend, which stands on a strip below: the picture is
 ///   higher by that.
 ///
@@ -42,10 +44,27 @@ pub fn render(
     shading: &Shading,
     params: &ViewParams,
 ) -> Result<RgbaImage, ViewError> {
+    render_among(plant, layers, &[], shading, params)
+}
+
+/// The same with plants that stand around it; in false colors they are gray.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_among(
+    plant: &Plant,
+    layers: &[&Layer],
+    around: &[Standing],
+    shading: &Shading,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
     params.check()?;
-    let scene = Scene::new(plant, layers, shading)?;
+    let scene = Scene::new(plant, layers, around, shading)?;
     let camera = Camera::fit(scene.fitted.iter().copied(), params);
     let mask = Mask::new(&camera, &scene.triangles, params.width_px, params.height_px);
+    if let Shading::Lines(_) = shading {
+        return Ok(lines::draw(&scene, camera, &mask, params));
+    }
     let tracer = Tracer::new(&scene, camera, mask, params);
     let picture = tracer.trace();
     Ok(match &scene.legend {

@@ -1,9 +1,10 @@
 //! The scene: the plant's triangles with all that light needs, in the picture's frame.
 
 use crate::camera::PLANT_EDGE;
+use crate::frame::{Frame, Standing};
 use crate::texture::{self, Cover, Decode, Texture};
-use crate::values::{self, FalseColors, Legend};
-use crate::{Shading, ViewError};
+use crate::values::{self, Legend};
+use crate::{Normals, Shading, ViewError, colors};
 use foliar_bake::Layer;
 use foliar_plant::{AlphaMode, Part, Plant};
 use foliar_schema::{Role, names};
@@ -79,6 +80,11 @@ pub(crate) struct Surface {
     pub leaf: bool,
 }
 
+/// Every vertex of a plant without a value.
+fn grays(plant: &Plant) -> Vec<Vec<Vec3>> {
+    plant.parts().iter().map(|part| vec![colors::NO_VALUE; part.positions.len()]).collect()
+}
+
 /// Triangles, skins, rays.
 pub(crate) struct Scene<'a> {
     pub rays: Rays,
@@ -99,11 +105,16 @@ pub(crate) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    /// Gathers the plant.
+    /// Gathers the plant and what stands around it.
     ///
     /// # Errors
-    /// [`ViewError`] where a layer does not fit the plant or the channel is not there.
-    pub fn new(plant: &'a Plant, layers: &[&Layer], shading: &Shading) -> Result<Scene<'a>, ViewError> {
+    /// [`ViewError`] where a layer does not fit its plant or the channel is not there.
+    pub fn new(
+        plant: &'a Plant,
+        layers: &[&Layer],
+        around: &'a [Standing],
+        shading: &Shading,
+    ) -> Result<Scene<'a>, ViewError> {
         let mut scene = Scene {
             rays: Rays::default(),
             triangles: Vec::new(),
@@ -117,20 +128,18 @@ impl<'a> Scene<'a> {
             skins: Vec::new(),
             decode: Decode::new(),
         };
-        let none = || vec![None; plant.parts().len()];
-        let (ambient, soft) = match shading {
-            Shading::Baked => {
-                (values::ambient(plant, layers)?, values::attribute(plant, layers, names::SOFT_NORMAL, 3)?)
-            }
-            Shading::Plain | Shading::Stock | Shading::Channel(_) => (none(), none()),
-        };
+        let frame = Frame::around(plant, around);
         let shown = match shading {
             Shading::Channel(name) => Some(values::false_colors(plant, layers, name)?),
-            Shading::Plain | Shading::Baked | Shading::Stock => None,
+            Shading::Plain | Shading::Baked | Shading::Stock | Shading::Lines(_) => None,
         };
-        scene.skins = skins(plant, &soft, scene.stock);
-        for (index, part) in plant.parts().iter().enumerate() {
-            scene.add(plant, index, part, ambient[index], soft[index], shown.as_ref());
+        scene.add(plant, layers, shading, &frame, shown.as_ref().map(|s| s.colors.as_slice()))?;
+        for other in around {
+            // A neighbor's values are not the legend's: it stands there in gray.
+            let gray = shown.is_some().then(|| grays(&other.plant));
+            let frame = frame.of(other);
+            let own: Vec<&Layer> = other.layers.iter().collect();
+            scene.add(&other.plant, &own, shading, &frame, gray.as_deref())?;
         }
         scene.floor = scene.triangles.iter().flatten().map(|p| p.y).reduce(f32::min).unwrap_or_default();
         scene.rays = Rays::new(&scene.triangles)?;
@@ -138,22 +147,53 @@ impl<'a> Scene<'a> {
         Ok(scene)
     }
 
+    /// Adds one plant.
     fn add(
         &mut self,
-        plant: &Plant,
-        index: usize,
+        plant: &'a Plant,
+        layers: &[&Layer],
+        shading: &Shading,
+        frame: &Frame,
+        shown: Option<&[Vec<Vec3>]>,
+    ) -> Result<(), ViewError> {
+        let none = || vec![None; plant.parts().len()];
+        let soft = || values::attribute(plant, layers, names::SOFT_NORMAL, 3);
+        let (ambient, soft) = match shading {
+            Shading::Baked => (values::ambient(plant, layers)?, soft()?),
+            Shading::Lines(Normals::Baked) => (none(), soft()?),
+            Shading::Plain | Shading::Lines(Normals::Plain) | Shading::Stock | Shading::Channel(_) => (none(), none()),
+        };
+        let first = self.skins.len();
+        self.skins.extend(skins(plant, &soft, self.stock));
+        let only_other = plant.structure().roles.iter().all(|&role| role == Role::Other);
+        for (index, part) in plant.parts().iter().enumerate() {
+            if let Some(shown) = shown {
+                self.colors.extend(&shown[index]);
+            } else if self.stock {
+                let factor = |v| part.colors.get(v).copied().unwrap_or(Vec3::ONE);
+                self.colors.extend((0..part.positions.len()).map(factor));
+            }
+            let places = self.add_part(part, ambient[index], soft[index], first + index, frame);
+            if plant.role(index) != Role::Other || only_other {
+                self.fitted.extend(places.iter().map(|p| p.as_vec3()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds vertices and triangles of a part; gives where its vertices are in the picture's frame.
+    fn add_part(
+        &mut self,
         part: &Part,
         ambient: Option<&[f32]>,
         soft: Option<&[f32]>,
-        shown: Option<&FalseColors>,
-    ) {
-        let edge = plant.size().max_element();
-        let scale = if edge > 0.0 { PLANT_EDGE / edge } else { 1.0 };
-        let place = |v| (part.rest_position(v) - plant.center()) * scale;
-        let places: Vec<DVec3> = (0..part.positions.len()).map(place).collect();
+        skin: usize,
+        frame: &Frame,
+    ) -> Vec<DVec3> {
+        let places: Vec<DVec3> = (0..part.positions.len()).map(|v| frame.place(part.rest_position(v))).collect();
         let is_near = |p: DVec3| p.abs().max_element() <= FARTHEST_OTHER * PLANT_EDGE;
         let first = self.vertices.len() as u32;
-        let rest = |normal: Vec3| part.normal_to_rest(normal.as_dvec3()).as_vec3().normalize_or_zero();
+        let rest = |normal: Vec3| frame.normal(part.normal_to_rest(normal.as_dvec3()));
         self.vertices.extend((0..places.len()).map(|v| Vertex {
             normal: match soft {
                 Some(soft) => rest(Vec3::from_slice(&soft[3 * v..])),
@@ -162,22 +202,14 @@ impl<'a> Scene<'a> {
             uv: part.uvs.get(v).copied().unwrap_or_default(),
             ambient: ambient.map_or(1.0, |a| a[v]),
         }));
-        if let Some(shown) = shown {
-            self.colors.extend(&shown.colors[index]);
-        } else if self.stock {
-            self.colors.extend((0..places.len()).map(|v| part.colors.get(v).copied().unwrap_or(Vec3::ONE)));
-        }
         for corners in &part.triangles {
             let points = corners.map(|c| places[c as usize]);
             if points.iter().all(|&p| is_near(p)) {
-                self.faces.push(Face { corners: corners.map(|c| first + c), skin: index as u32 });
+                self.faces.push(Face { corners: corners.map(|c| first + c), skin: skin as u32 });
                 self.triangles.push(points.map(|p| p.as_vec3()));
             }
         }
-        let only_other = plant.structure().roles.iter().all(|&role| role == Role::Other);
-        if plant.role(index) != Role::Other || only_other {
-            self.fitted.extend(places.iter().map(|p| p.as_vec3()));
-        }
+        places
     }
 
     /// Whether a ray that draws `chance` in [0, 1) is stopped by what it met.

@@ -93,7 +93,8 @@ fn leaves_without_area_still_get_values() {
 #[test]
 fn a_neighbor_darkens_and_leaves_the_reference_alone() {
     let (small, params) = (crown(400, 1.0, 0.05, 10), json!({"ambient": "luft", "radius_m": 0.4}));
-    let neighbor = || Placed { plant: crown(800, 1.5, 0.05, 0), transform: DAffine3::from_translation(DVec3::X * 1.0) };
+    let neighbor =
+        || Placed { plant: crown(800, 1.5, 0.05, 0).into(), transform: DAffine3::from_translation(DVec3::X * 1.0) };
     let (alone, beside) = (bake(&small, &[], params.clone()), bake(&small, &[neighbor()], params));
     assert_eq!(alone.record.facts["referenceDensity"], beside.record.facts["referenceDensity"]);
     let (a, b) = (ambient(&alone), ambient(&beside));

@@ -2,7 +2,7 @@
 
 use super::plants::{Quad, crown, plant};
 use crate::{Density, Foliage, Params, Query, reference};
-use foliar_bake::{Baker, Inputs, Layer, Maps, Placed, Quiet, Request, laws, run};
+use foliar_bake::{Baker, Inputs, Layer, Maps, Placed, Placement, Quiet, Request, laws, run};
 use foliar_numerics::ErrorStats;
 use foliar_plant::Plant;
 use foliar_schema::names;
@@ -19,12 +19,16 @@ fn values<'a>(plant: &Plant, layer: &'a Layer, name: &str) -> Vec<&'a [f32]> {
     plant.parts().iter().filter_map(|part| layer.attribute(part.place, name)?.as_f32()).collect()
 }
 
+fn placed(plant: Plant, offset_m: DVec3, yaw_deg: f64, scale: f64) -> Placed {
+    Placed::new(plant, &Placement { offset_m, yaw_deg, scale })
+}
+
 fn small() -> Plant {
     crown(400, 1.0, 0.05, 10)
 }
 
 fn large(x: f64, z: f64) -> Placed {
-    Placed::new(crown(900, 1.5, 0.1, 5), DVec3::new(x, 0.3, z), 30.0, 1.2)
+    placed(crown(900, 1.5, 0.1, 5), DVec3::new(x, 0.3, z), 30.0, 1.2)
 }
 
 /// Both ambient terms, and the sky on its lattice rather than by single chords.
@@ -80,7 +84,7 @@ fn normals_turn_away_from_a_wall_of_foliage() {
 #[test]
 fn the_order_of_neighbors_does_not_matter() {
     // Three of one plant too: only where they stand tells them apart.
-    let stand = |x: f64| Placed::new(small(), DVec3::X * x, 0.0, 1.0);
+    let stand = |x: f64| placed(small(), DVec3::X * x, 0.0, 1.0);
     for given in terms() {
         let plant = crown(1200, 1.0, 0.05, 10);
         let one = bake(&plant, &[stand(1.0), large(-1.0, 0.5), stand(1.5), stand(0.5)], &given);
@@ -93,7 +97,7 @@ fn the_order_of_neighbors_does_not_matter() {
 fn one_leaf_turned_scaled_and_moved_stands_where_it_should() {
     let leaf = |center| plant(&[Quad { center, edge: 0.1, normal: DVec3::Y }], 0, DAffine3::IDENTITY);
     // A quarter turn takes +Z to +X: twice (0, 1, 3) becomes (6, 2, 0), moved by (10, 0, -1).
-    let neighbor = Placed::new(leaf(DVec3::new(0.0, 1.0, 3.0)), DVec3::new(10.0, 0.0, -1.0), 90.0, 2.0);
+    let neighbor = placed(leaf(DVec3::new(0.0, 1.0, 3.0)), DVec3::new(10.0, 0.0, -1.0), 90.0, 2.0);
     let own = leaf(DVec3::new(1.0, 2.0, 3.0));
     let params = Params { radius_m: Some(0.5), ..Params::default() };
     let foliage = Foliage::new(&own, &[neighbor], &params);
@@ -111,7 +115,7 @@ fn one_leaf_turned_scaled_and_moved_stands_where_it_should() {
 #[test]
 fn what_neighbors_add_meets_the_reference() {
     let plant = small();
-    let dense = |x: f64| Placed::new(crown(2000, 1.5, 0.1, 0), DVec3::X * x, 30.0, 1.2);
+    let dense = |x: f64| placed(crown(2000, 1.5, 0.1, 0), DVec3::X * x, 30.0, 1.2);
     let neighbors = [dense(1.0), dense(-3.0)];
     for rung in Density.ladder() {
         let inputs = Inputs { plant: Some(&plant), maps: &Maps::new(), neighbors: &neighbors };

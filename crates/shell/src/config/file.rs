@@ -2,15 +2,16 @@
 //! keeps its line; paths in a file start from the file's folder.
 
 use super::{Fields, Origin, Settings, from_json};
-use crate::Failure;
+use crate::{Failure, neighbors};
 use serde_json::Value;
 use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::de::{DeArray, DeTable, DeValue};
 
-/// Fields that hold paths, and what stands before the path in each entry.
-const PATHS: [(&str, Option<char>); 2] = [("import.search", None), ("import.texture", Some('='))];
+/// Fields that hold paths, and what stands before (`=`) or after (`@`) the path in each entry.
+const PATHS: [(&str, Option<char>); 3] =
+    [("import.search", None), ("import.texture", Some('=')), (neighbors::ENDING, Some('@'))];
 
 /// The project's file: `foliar.toml` in the input's folder or the nearest above it.
 pub fn project_file(folder: &Path) -> Option<PathBuf> {
@@ -89,13 +90,15 @@ impl Reader<'_> {
 
     /// Paths in a file start from the file's folder.
     fn rebase(&self, dotted: &str, value: Value) -> Value {
-        let Some((_, separator)) = PATHS.iter().find(|(name, _)| *name == dotted) else { return value };
+        let Some((_, separator)) = PATHS.iter().find(|(name, _)| dotted.ends_with(name)) else { return value };
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let joined = |path: &str| folder.join(path).display().to_string();
-        let entry = |text: &str| match separator.and_then(|c| text.split_once(c)) {
-            Some((part, file)) => format!("{part}={}", joined(file)),
-            None => joined(text),
+        let entry = |text: &str| match separator {
+            Some('@') => text.rsplit_once('@').map(|(file, place)| format!("{}@{place}", joined(file))),
+            Some(c) => text.split_once(*c).map(|(part, file)| format!("{part}={}", joined(file))),
+            None => None,
         };
+        let entry = |text: &str| entry(text).unwrap_or_else(|| joined(text));
         value.as_array().into_iter().flatten().filter_map(Value::as_str).map(entry).collect()
     }
 

@@ -90,6 +90,12 @@ impl Settings {
         self.given.get(dotted)
     }
 
+    /// Everything that was given whose place ends so, to be put otherwise.
+    pub fn ending_mut<'a>(&'a mut self, ending: &'a str) -> impl Iterator<Item = (&'a str, &'a mut Given)> {
+        let all = self.given.iter_mut().map(|(dotted, given)| (dotted.as_str(), given));
+        all.filter(move |(dotted, _)| dotted.ends_with(ending))
+    }
+
     /// Whether anything of a section was given.
     pub fn has_section(&self, section: &str) -> bool {
         self.section_values(section).next().is_some()

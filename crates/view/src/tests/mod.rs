@@ -2,6 +2,7 @@
 
 mod laws;
 mod light;
+mod lines;
 
 use crate::{Background, Ground, ViewParams};
 use foliar_bake::{Array, AttributeKey, Layer};
