@@ -10,6 +10,7 @@ pub const FOLIAR: &str = env!("CARGO_BIN_EXE_foliar");
 pub const IMPORT: &str = env!("CARGO_BIN_EXE_foliar-import");
 pub const DENSITY: &str = env!("CARGO_BIN_EXE_foliar-density");
 pub const VIEW: &str = env!("CARGO_BIN_EXE_foliar-view");
+pub const PACK: &str = env!("CARGO_BIN_EXE_foliar-pack");
 
 /// What a run left behind.
 #[derive(Debug)]

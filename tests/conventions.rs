@@ -1,6 +1,6 @@
 //! The conventions of every program (house rules, section 6): one walk over all programs and all flags.
 
-use crate::common::{DENSITY, FOLIAR, IMPORT, Run, VIEW, folder, run_in, tree};
+use crate::common::{DENSITY, FOLIAR, IMPORT, PACK, Run, VIEW, folder, run_in, tree};
 use foliar_programs::BAKERS;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,7 +20,7 @@ struct Case {
 const OBJ: &[&str] = &["tree.obj", "tree.mtl"];
 
 #[rustfmt::skip]
-const CASES: [Case; 9] = [
+const CASES: [Case; 10] = [
     Case { name: "foliar bake", program: FOLIAR, arguments: &["bake", "tree.obj", "-o", "bake.glb"],
         output: Some("bake.glb"), reads: OBJ },
     Case { name: "foliar rebake", program: FOLIAR, arguments: &["rebake", "baked.glb", "-o", "rebake.glb", "--up", "z"],
@@ -39,6 +39,8 @@ const CASES: [Case; 9] = [
     Case { name: "foliar-view", program: VIEW,
         arguments: &["tree.obj", "-o", "view.png", "--width-px", "64", "--height-px", "48", "--samples", "1"],
         output: Some("view.png"), reads: OBJ },
+    Case { name: "foliar-pack", program: PACK, arguments: &["baked.glb", "-o", "pack.glb", "--for", "core", "--up", "z"],
+        output: Some("pack.glb"), reads: &["baked.glb"] },
 ];
 
 /// Everything that the commands read, and a configuration.

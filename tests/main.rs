@@ -18,6 +18,7 @@ mod laws;
 mod layers;
 mod moving;
 mod neighbors;
+mod pack;
 mod plants;
 mod streams;
 mod view;

@@ -72,7 +72,7 @@ sarif\t''
 junit\t''
 github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l only -d 'Bakes this room only, whatever the scene requires; repeatable' -r
-complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Bakes the other inputs where one fails'
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Goes on with the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l dry-run -d 'Prints what would be done and stops'
@@ -117,7 +117,7 @@ json\t''
 sarif\t''
 junit\t''
 github\t''"
-complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l keep-going -d 'Bakes the other inputs where one fails'
+complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l keep-going -d 'Goes on with the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar -n "__fish_foliar_using_subcommand rebake" -l dry-run -d 'Prints what would be done and stops'

@@ -1,6 +1,6 @@
 //! What xtask is asked.
 
-use crate::{faults, fixtures, generated, run_tests, tidy, validator, with_foliar};
+use crate::{faults, fixtures, generated, loaders, run_tests, tidy, validator, with_foliar};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -50,6 +50,8 @@ enum Chore {
     Validator,
     /// Reads every output of the tests by a reader that shares no code with the writer
     SecondReader,
+    /// Loads every packed output of the tests with three and Blender
+    Loaders,
     /// Plants small faults in a scratch copy and demands that the tests they name go red
     Faults {
         /// Only those whose name contains one of these
@@ -72,6 +74,7 @@ pub fn main() -> ExitCode {
         Chore::Gallery { name } => with_foliar::run("gallery", name.as_deref()),
         Chore::Validator => validator::run(),
         Chore::SecondReader => with_foliar::run("second-reader", None),
+        Chore::Loaders => loaders::run(),
         Chore::Faults { names } => faults::run(&names),
         Chore::Test => run_tests::run(),
     };

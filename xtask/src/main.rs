@@ -14,6 +14,7 @@ mod fixtures;
 #[cfg(feature = "foliar")]
 mod gallery;
 mod generated;
+mod loaders;
 mod obj_text;
 mod repo;
 mod run_tests;

@@ -1,16 +1,16 @@
 //! Everything that must pass before work is handed in, one step after the other.
 
-use crate::{fixtures, generated, repo, tidy, validator, with_foliar};
+use crate::{fixtures, generated, loaders, repo, tidy, validator, with_foliar};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 type Step = (&'static str, fn() -> Result<()>);
 
 /// In the order in which a person wants to hear of a fault.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     ("format", || cargo(&["fmt", "--all", "--check"])),
     ("tidy", tidy::run),
     ("lints", || {
@@ -24,6 +24,7 @@ const STEPS: [Step; 9] = [
     ("tests", tests),
     ("validator", validator::run),
     ("second reader", || with_foliar::run("second-reader", None)),
+    ("loaders", loaders::run),
 ];
 
 /// Runs every step, even after one failed, and names those that did. What was skipped stands in the last
@@ -44,6 +45,14 @@ pub fn run() -> Result<()> {
     }
     println!("all {} steps passed{}", STEPS.len(), if skipped.is_empty() { "" } else { ", but for what was skipped" });
     Ok(())
+}
+
+/// Says that something was skipped, now and in the last lines.
+pub fn skip(why: &str) {
+    println!("skipped: {why}");
+    let list = std::fs::File::options().create(true).append(true).open(skipped_list());
+    // Where the list cannot be written, the line above has said it.
+    _ = list.and_then(|mut list| writeln!(list, "skipped: {why}"));
 }
 
 /// Where the step `tests` leaves what was skipped.

@@ -9,6 +9,7 @@ mod accessor;
 mod assemble;
 mod container;
 mod document;
+pub mod edit;
 mod error;
 mod extract;
 pub mod images;

@@ -2,6 +2,8 @@
 //! by the glTF specification and the contract alone, and says what does not hold. Tests run it over
 //! every file that they write, since the Khronos validator cannot look inside the extensions.
 
+mod packed;
+
 use foliar_schema::{CHANNELS, COLUMNS, Channel, names};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -101,7 +103,9 @@ impl Master<'_> {
     fn verify(&self) -> Result<Summary, String> {
         let root = &self.json["extensions"][names::EXTENSION];
         if root.is_null() {
-            return Ok(Summary::default());
+            let Some(engine) = packed::Packed::engine(self.json) else { return Ok(Summary::default()) };
+            let verified = packed::Packed { json: self.json, bin: self.bin }.verify(engine);
+            return verified.map(|()| Summary::default()).map_err(|e| format!("packed for {engine}: {e}"));
         }
         let mirror = &self.json["asset"]["extras"];
         ensure(is_mirror(mirror, "contract", root), || "mirror and extension differ".into())?;

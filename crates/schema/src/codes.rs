@@ -46,6 +46,8 @@ codes! {
     LEAF_ZERO_AREA = "LEAF-ZERO-AREA", Note, "Pieces of leaf parts without area were kept in the base and given no leaf row.";
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";
     NEIGHBOR_COINCIDES = "NEIGHBOR-COINCIDES", Warning, "A neighbor is the plant itself, or another neighbor, at the same place: its foliage counts twice; move it or take it out.";
+    PACK_BUDGET = "PACK-BUDGET", Warning, "Packing adds more bytes per vertex than scene.budget.bytes_per_vertex allows: raise it, or bake fewer channels.";
+    PACK_LEFT_OUT = "PACK-LEFT-OUT", Warning, "Attributes of the base that the engine cannot take beside foliar's were left out of the packed file.";
     RECORD_UNKNOWN = "RECORD-UNKNOWN", Note, "A record of an unknown room or a newer contract was kept as it is.";
     ROLE_MIXED = "ROLE-MIXED", Warning, "One part holds trunk and crown without a hint: split it in the modeller, or name its role.";
     ROLE_UNMATCHED = "ROLE-UNMATCHED", Warning, "A pattern of section `roles` matches no part: correct it, or take it out.";

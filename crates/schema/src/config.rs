@@ -239,10 +239,37 @@ impl Default for Budget {
     }
 }
 
-/// How a file is packed for an engine (a later version reads it).
+/// What a packed file is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Engine {
+    /// Any glTF viewer, no shader: NORMAL realigned, `COLOR_0` times the ambient coefficient.
+    Core,
+    /// Blender: float attributes of equal widths, vectors with Z up.
+    Blender,
+    /// Luft07's own encoding: a vector per vertex along the realigned normal, as long as the ambient coefficient.
+    Luft07,
+}
+
+impl Engine {
+    /// All that there are.
+    pub const ALL: [Engine; 3] = [Engine::Core, Engine::Blender, Engine::Luft07];
+
+    /// The word in files and flags.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Engine::Core => "core",
+            Engine::Blender => "blender",
+            Engine::Luft07 => "luft07",
+        }
+    }
+}
+
+/// How a file is packed for an engine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pack {
-    /// Profile of foliar-pack.
-    pub engine: Option<String>,
+    /// What the packed file is for.
+    #[schemars(extend("x-flag" = "for"))]
+    pub engine: Option<Engine>,
 }

@@ -43,3 +43,12 @@ pub const ROOM_DENSITY: &str = "density";
 pub const LAYER_METADATA_KEY: &str = "foliar";
 /// File ending of a layer on disk.
 pub const LAYER_ENDING: &str = "layer";
+
+/// Packed for `luft07`: along the realigned normal, as long as the ambient coefficient (Luft07's encoding).
+pub const NORMAL_AMBIENT: &str = "_NORMAL_AMBIENT";
+/// Packed for Blender: [`SOFT_NORMAL`] with Z up, as Blender turns every normal but not custom attributes.
+pub const SOFT_NORMAL_ZUP: &str = "_SOFT_NORMAL_ZUP";
+/// Packed for Blender: leaf id, -1 where the vertex belongs to none.
+pub const PACKED_LEAF_ID: &str = "_LEAF_ID";
+/// What a packed file says of itself, in `asset.extras`: engine and generator.
+pub const PACKED: &str = "FOLIAR_packed";

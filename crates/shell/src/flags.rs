@@ -19,6 +19,8 @@ pub enum Direct<'a> {
     Section(&'a str),
     /// Import only.
     Import,
+    /// Import, and what is packed.
+    Pack,
 }
 
 impl Direct<'_> {
@@ -26,6 +28,7 @@ impl Direct<'_> {
     pub fn fields<'f>(&'f self, fields: &'f Fields) -> impl Iterator<Item = &'f Field> {
         fields.all().iter().filter(move |field| match self {
             Direct::Import => field.section == "import",
+            Direct::Pack => field.section == "import" || field.section == "pack",
             Direct::Assets => is_asset(field) || is_shared(field),
             Direct::Section(section) => is_asset(field) || field.section == *section,
         })
@@ -207,11 +210,16 @@ pub fn with_conventions(command: Command, leaves: Leaves) -> Command {
         )
 }
 
-/// Flags of everything that bakes.
-pub fn with_baking(command: Command) -> Command {
+/// Flags of everything that takes several inputs and makes a file of each.
+pub fn with_batches(command: Command) -> Command {
     command
         .arg(path("directory", "DIR", "Writes DIR/NAME.glb for each input").short('d').conflicts_with("output"))
-        .arg(switch("keep-going", "Bakes the other inputs where one fails"))
+        .arg(switch("keep-going", "Goes on with the other inputs where one fails"))
+}
+
+/// Flags of everything that bakes.
+pub fn with_baking(command: Command) -> Command {
+    with_batches(command)
         .arg(path("picture", "FILE.png", "Draws what was baked"))
         .arg(path("cache", "DIR", "Keeps layers by content: an unchanged room is not baked again"))
         .arg(switch("explain-roles", "Prints each part with its role and the evidence; without an output, stops there"))

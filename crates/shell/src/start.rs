@@ -29,6 +29,11 @@ pub fn foliar_view(bakers: &[&dyn Baker]) -> ExitCode {
     start(&Program::View, bakers)
 }
 
+/// The program `foliar-pack`.
+pub fn foliar_pack(bakers: &[&dyn Baker]) -> ExitCode {
+    start(&Program::Pack, bakers)
+}
+
 fn start(program: &Program, bakers: &[&dyn Baker]) -> ExitCode {
     let result = guard(|| work(program, bakers));
     let Err(failure) = result else { return ExitCode::SUCCESS };

@@ -39,7 +39,8 @@ pub fn tell(
 
 /// What a JSON line holds of a report; the plan and the roles where they were asked for.
 fn line(report: &Map<String, Value>, options: &Options, lists: &[PathBuf]) -> Value {
-    const KEPT: [&str; 9] = ["asset", "output", "status", "exit", "error", "outputs", "leaves", "findings", "seconds"];
+    const KEPT: [&str; 10] =
+        ["asset", "output", "status", "exit", "error", "outputs", "leaves", "pack", "findings", "seconds"];
     let plan = (options.mode == Mode::DryRun).then_some("plan");
     let parts = options.explain_roles.then_some("parts");
     let names = KEPT.into_iter().chain(plan).chain(parts);
@@ -73,7 +74,8 @@ fn details(report: &Map<String, Value>) -> String {
         names => Some(names.join(", ")),
     };
     let seconds = report.get("seconds").and_then(Value::as_f64).unwrap_or(0.0);
-    let all = [leaves, rooms, Some(format!("{seconds:.2} s"))];
+    let packed = report.get("packed").and_then(Value::as_str).map(str::to_owned);
+    let all = [leaves, rooms, packed, Some(format!("{seconds:.2} s"))];
     all.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 

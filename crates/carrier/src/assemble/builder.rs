@@ -10,10 +10,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// GPU buffer that attributes are meant for (glTF 2.0 section 5.11.5).
 const ARRAY_BUFFER: u32 = 34_962;
+/// GPU buffer that indices are meant for.
+const ELEMENT_ARRAY_BUFFER: u32 = 34_963;
 
 /// What a buffer view holds.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Content {
+pub(crate) enum Content {
     /// Values per vertex, `stride` bytes each.
     Attribute {
         /// Bytes per vertex.
@@ -21,10 +23,26 @@ pub(super) enum Content {
     },
     /// A column of a property table.
     Column,
+    /// Indices of triangles.
+    Indices,
+}
+
+impl Content {
+    /// Says in a view what it is for.
+    pub fn mark(self, view: &mut Value) {
+        match self {
+            Content::Attribute { stride } => {
+                view["byteStride"] = stride.into();
+                view["target"] = ARRAY_BUFFER.into();
+            }
+            Content::Indices => view["target"] = ELEMENT_ARRAY_BUFFER.into(),
+            Content::Column => {}
+        }
+    }
 }
 
 /// The document under assembly, and what is said of it.
-pub(super) struct Builder {
+pub(crate) struct Builder {
     pub document: Document,
     pub notes: Notes,
     pub findings: Vec<Finding>,
@@ -107,10 +125,7 @@ impl Builder {
         buffer.resize(buffer.len().next_multiple_of(alignment), 0);
         let mut view = json!({"buffer": 0, "byteOffset": buffer.len(), "byteLength": bytes.len()});
         buffer.extend_from_slice(bytes);
-        if let Content::Attribute { stride } = content {
-            view["byteStride"] = stride.into();
-            view["target"] = ARRAY_BUFFER.into();
-        }
+        content.mark(&mut view);
         view["name"] = name.into();
         self.push(&[], "bufferViews", view)
     }
@@ -130,7 +145,7 @@ impl Builder {
 }
 
 /// A primitive as an object.
-pub(super) fn primitive_mut(json: &mut Value, place: Place) -> Option<&mut Map<String, Value>> {
+pub(crate) fn primitive_mut(json: &mut Value, place: Place) -> Option<&mut Map<String, Value>> {
     let mesh = json.get_mut("meshes")?.get_mut(place.mesh as usize)?;
     mesh.get_mut("primitives")?.get_mut(place.primitive as usize)?.as_object_mut()
 }

@@ -114,7 +114,7 @@ fn attribute(
 }
 
 /// Vertices of a primitive.
-pub(super) fn vertices(base: &Document, place: Place, room: &str) -> Result<usize, CarrierError> {
+pub(crate) fn vertices(base: &Document, place: Place, room: &str) -> Result<usize, CarrierError> {
     let primitive = primitive(base, place);
     let position = primitive.and_then(|p| p.get("attributes")).and_then(|a| index_of(a, "POSITION"));
     match position {

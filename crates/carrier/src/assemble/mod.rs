@@ -8,7 +8,8 @@ mod tables;
 
 use crate::notes::{KEPT, PROPERTIES, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
-use builder::{Builder, primitive_mut};
+pub(crate) use builder::{Builder, Content, primitive_mut};
+pub(crate) use check::vertices as vertices_of;
 use foliar_bake::Layer;
 use foliar_plant::Place;
 use foliar_schema::{CONTRACT, Finding, FoliageExtension, PrimitiveExtension, ROOMS, Record, Role, code, names};

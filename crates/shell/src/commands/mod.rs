@@ -5,6 +5,7 @@ mod bake;
 mod config;
 mod generate;
 mod inspect;
+mod pack;
 mod rebake;
 mod strip;
 mod tree;
@@ -38,6 +39,7 @@ pub(crate) fn run(program: &Program, call: &Call) -> Result<(), Failure> {
         Program::Import => bake::import(call),
         Program::Room(room) => bake::room(call, room),
         Program::View => view::run(call),
+        Program::Pack => pack::run(call),
         Program::Foliar => {
             let (name, matches) = call.matches.subcommand().unwrap_or(("", call.matches));
             let call = Call { matches, ..*call };

@@ -16,13 +16,15 @@ pub enum Program {
     Room(String),
     /// `foliar-view`: pictures.
     View,
+    /// `foliar-pack`: files that ship.
+    Pack,
 }
 
 impl Program {
     /// Every program that these bakers make.
     pub fn all(bakers: &[&dyn Baker]) -> Vec<Program> {
         let rooms = bakers.iter().map(|baker| Program::Room(baker.room().into()));
-        [Program::Foliar, Program::Import].into_iter().chain(rooms).chain([Program::View]).collect()
+        [Program::Foliar, Program::Import].into_iter().chain(rooms).chain([Program::View, Program::Pack]).collect()
     }
 
     /// Name of the binary.
@@ -32,6 +34,7 @@ impl Program {
             Program::Import => "foliar-import".into(),
             Program::Room(room) => format!("foliar-{room}"),
             Program::View => "foliar-view".into(),
+            Program::Pack => "foliar-pack".into(),
         }
     }
 }
@@ -50,6 +53,7 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
             baking(command.about(format!("Bakes one room: {about}")), fields, Direct::Section(room))
         }
         Program::View => view(command, fields),
+        Program::Pack => pack(command, fields),
     }
 }
 
@@ -136,6 +140,14 @@ fn view(command: Command, fields: &Fields) -> Command {
         .arg(flags::output("Output: .png, or - for standard output").required(true))
         .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"));
     common(command, fields, Direct::Section("view"), Leaves::Files)
+}
+
+fn pack(command: Command, fields: &Fields) -> Command {
+    let command = command
+        .about("Packs a master for an engine: what that needs, and nothing else")
+        .arg(flags::inputs("FILE", "Baked .glb or .gltf files; - is standard input").required(true))
+        .arg(flags::output("Output: .glb, .gltf, or - for standard output; not the master itself"));
+    common(flags::with_batches(command), fields, Direct::Pack, Leaves::Files)
 }
 
 #[cfg(test)]

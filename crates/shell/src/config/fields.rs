@@ -39,6 +39,8 @@ pub struct Field {
     pub doc: String,
     /// Its own schema, for ranges.
     pub schema: Value,
+    /// Name of its flag, where that is not the field's (`x-flag` in the schema).
+    pub own_flag: Option<String>,
 }
 
 impl Field {
@@ -52,8 +54,12 @@ impl Field {
         format!("FOLIAR_{}_{}", self.section, self.path.join("_")).to_uppercase()
     }
 
-    /// Name of the direct flag: `nearest-m`, from the last step of the place.
+    /// Name of the direct flag: `nearest-m`, from the last step of the place, unless the schema says another.
     pub fn flag(&self) -> String {
+        self.own_flag.clone().unwrap_or_else(|| self.last_step())
+    }
+
+    fn last_step(&self) -> String {
         self.path.last().map_or_else(String::new, |name| name.replace('_', "-"))
     }
 
@@ -210,6 +216,7 @@ impl Walk<'_> {
             default: default.clone(),
             doc: doc.ok_or_else(|| self.refuse(path, "no doc comment"))?.into(),
             schema: target.clone(),
+            own_flag: property["x-flag"].as_str().map(String::from),
         })
     }
 
