@@ -8,7 +8,7 @@ mod hash;
 pub mod laws;
 mod layer;
 mod placement;
-mod reframe;
+pub mod reframe;
 mod run;
 
 pub use array::Array;

@@ -103,21 +103,21 @@ impl BoxTree {
         }
     }
 
-    /// The entry of the least `measure`, which must not be below the distance of `point` from the entry's box;
-    /// the lowest entry of equal ones.
-    pub fn least(&self, point: DVec3, mut measure: impl FnMut(u32) -> f64) -> Option<(u32, f64)> {
+    /// The entry of the least `measure` below `limit`; a measure must not be below the distance of `point` from the
+    /// entry's box. The lowest entry of equal ones.
+    pub fn least(&self, point: DVec3, limit: f64, mut measure: impl FnMut(u32) -> f64) -> Option<(u32, f64)> {
         let mut stack = Vec::with_capacity(64);
         stack.extend(self.nodes.first().map(|root| (0u32, root.around.distance(point))));
         let mut best: Option<(u32, f64)> = None;
         while let Some((index, distance)) = stack.pop() {
-            if best.is_some_and(|(_, least)| distance > least) {
+            if distance >= limit || best.is_some_and(|(_, least)| distance > least) {
                 continue;
             }
             let node = &self.nodes[index as usize];
             if node.count > 0 {
                 for &entry in &self.order[node.first as usize..(node.first + node.count) as usize] {
                     let value = measure(entry);
-                    if best.is_none_or(|(e, least)| value < least || (value <= least && entry < e)) {
+                    if value < limit && best.is_none_or(|(e, least)| value < least || (value <= least && entry < e)) {
                         best = Some((entry, value));
                     }
                 }
@@ -174,9 +174,10 @@ mod tests {
         for place in places(50) {
             let measure = |e: u32| boxes[e as usize].low.distance(place);
             let right = (0..boxes.len() as u32).map(measure).fold(f64::INFINITY, f64::min);
-            let (entry, value) = tree.least(place, measure).unwrap();
+            let (entry, value) = tree.least(place, f64::INFINITY, measure).unwrap();
             assert_eq!((value.to_bits(), measure(entry).to_bits()), (right.to_bits(), right.to_bits()));
         }
-        assert!(BoxTree::new(&[]).least(DVec3::ZERO, |_| 0.0).is_none());
+        assert!(tree.least(DVec3::ZERO, 0.5, |_| 0.5).is_none());
+        assert!(BoxTree::new(&[]).least(DVec3::ZERO, 1.0, |_| 0.0).is_none());
     }
 }

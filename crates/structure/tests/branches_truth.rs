@@ -49,7 +49,7 @@ fn the_papers_own_words_fail_where_tubes_do_not_cross() {
 #[test]
 fn grown_trees_hang_as_they_grew() {
     let found = accuracy(&Recipe::small().grow(), Method::Robust);
-    assert!(found.parent >= 1.0 && found.chain >= 1.0, "{found:?}");
+    assert!(found.parent >= 1.0 && found.chain >= 1.0 && found.leaf >= LEAVES, "{found:?}");
 }
 
 #[test]

@@ -46,13 +46,18 @@ pub struct Wrong {
 }
 
 impl Truth {
-    /// What a sample knows of itself, continuations merged by the rule of the step.
+    /// What a sample knows of itself, continuations merged by the rule of the step. Leaves that start where their
+    /// branch is still inside its parent's wood are not counted: nobody could tell on which of both they hang.
     pub fn of_sample(branches: &Branches) -> Truth {
         let id = |place: &OnBranch| place.branch;
+        let bark = |branch: u32| branches.attachments.get(branch as usize).map_or(0.0, |a| a.bark_arc);
+        let leaf = |place: &OnBranch| {
+            if f64::from(place.arc) < bark(place.branch) { NO_BRANCH } else { place.branch }
+        };
         let truth = Truth {
             parents: branches.rows.iter().map(|r| (r.parent != NO_BRANCH).then_some(r.parent)).collect(),
             vertices: branches.vertices.iter().map(|list| list.iter().map(id).collect()).collect(),
-            leaves: branches.leaves.iter().map(id).collect(),
+            leaves: branches.leaves.iter().map(leaf).collect(),
         };
         truth.merged(&branches.axes)
     }

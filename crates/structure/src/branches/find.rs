@@ -127,7 +127,7 @@ fn assemble(
     };
     let (mut branches, ids) = Branches::grow((0..runs.tubes.len()).map(stalk).collect());
     branches.vertices = vertices(mesh, tubes, runs, &ids);
-    branches.leaves = super::bind::leaves(&branches, structure, geometry);
+    branches.leaves = super::bind::leaves(&branches, geometry.base, structure, geometry);
     let mut reports: Vec<BranchReport> = vec![BranchReport::default(); ids.len()];
     for (run, &id) in ids.iter().enumerate() {
         let (list, hanging) = (&runs.tubes[run], &runs.hangings[run]);
