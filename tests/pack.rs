@@ -1,7 +1,8 @@
 //! `foliar-pack`: files that ship, and the numbers that loaders which are not ours must find in them
 //! (`cargo xtask loaders`).
 
-use crate::common::{FOLIAR, IMPORT, PACK, VIEW, folder, open_glb, output, run, run_in, shared, text, tree};
+use crate::common::{FOLIAR, IMPORT, PACK, VIEW, folder, glb, open_glb, output, run, run_in, shared, text, tree};
+use foliar_carrier::second_reader;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
@@ -87,6 +88,7 @@ fn every_engine_gets_a_file_and_loaders_get_the_numbers_to_expect() {
         for gone in ["FOLIAR_foliage", "EXT_mesh_features", "foliarLeaf"] {
             assert!(!json.to_string().contains(gone), "{engine}: {gone} is of no use to an engine");
         }
+        second_reader::verify_file(&out).unwrap();
         std::fs::write(format!("{}.expected.json", text(&out)), expected(&master, engine).to_string()).unwrap();
     }
 }
@@ -122,9 +124,28 @@ fn every_odd_plant_that_has_something_to_pack_is_packed_for_every_engine() {
             let run = run(PACK, &[text(&master), "-o", text(&out), "--for", engine]);
             packed += usize::from(run.status == 0);
             assert_eq!(run.status, if is_baked { 0 } else { 3 }, "{} {engine}: {run:?}", sample.name);
+            assert!(!is_baked || second_reader::verify_file(&out).is_ok(), "{:?}", second_reader::verify_file(&out));
         }
     }
     assert!(packed > 3 * ENGINES.len(), "odd plants with leaves: {packed} files");
+}
+
+#[test]
+fn the_second_reader_refuses_a_file_that_is_not_what_it_says() {
+    let here = folder();
+    let (master, out) = (master(here.path(), 20), here.path().join("packed.glb"));
+    run(PACK, &[text(&master), "-o", text(&out), "--for", "blender"]).expect(0, &[]);
+    let (json, binary) = open_glb(&out);
+    let refused = |change: &dyn Fn(&mut Value)| {
+        let mut json = json.clone();
+        change(&mut json);
+        second_reader::verify(&glb(&json, &binary)).unwrap_err()
+    };
+    let engine = |json: &mut Value, word: &str| json["asset"]["extras"]["FOLIAR_packed"]["engine"] = word.into();
+    assert!(refused(&|json| engine(json, "luft07")).contains("nothing in it was packed"));
+    assert!(refused(&|json| engine(json, "core")).contains("twice"));
+    let ambient = json["meshes"][0]["primitives"][0]["attributes"]["_AMBIENT"].as_u64().unwrap() as usize;
+    assert!(refused(&|json| json["accessors"][ambient]["type"] = "SCALAR".into()).contains("no VEC3 of floats"));
 }
 
 #[test]

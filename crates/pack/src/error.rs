@@ -11,6 +11,11 @@ pub enum PackError {
         "holds neither ambient coefficients nor realigned normals (no layer of room density): bake them first: foliar-density TREE -o TREE.glb"
     )]
     NothingBaked,
+    /// The room had nothing to do.
+    #[error(
+        "its layer of room density is empty, no part is a leaf: name the leaves and bake again: foliar-density TREE --leaf PATTERN -o TREE.glb"
+    )]
+    NoLeaves,
     /// The file is no master any more.
     #[error("is packed for {engine} already, and holds no layers any more: name the master that it was packed from")]
     AlreadyPacked {

@@ -70,7 +70,7 @@ impl Plan {
 /// needs of them is written as it takes it. The rest of the base comes through.
 ///
 /// # Errors
-/// [`PackError::NothingBaked`] where there is no density layer, [`PackError::AlreadyPacked`] for a file
+/// [`PackError::NothingBaked`] where there is no density layer, [`PackError::NoLeaves`] where that is empty, [`PackError::AlreadyPacked`] for a file
 /// that was packed before, [`PackError::Carrier`] where the base is not what the layers were baked from.
 pub fn pack(asset: &Asset, engine: Engine) -> Result<Packed, PackError> {
     let master = Master::of(asset)?;

@@ -57,6 +57,9 @@ impl<'a> Master<'a> {
             });
         }
         if pieces.iter().all(|piece| piece.ambient.is_none() && piece.soft.is_none()) {
+            if asset.layers.iter().any(|layer| layer.record.room == names::ROOM_DENSITY) {
+                return Err(PackError::NoLeaves);
+            }
             let packed = asset.document.json.pointer("/asset/extras").and_then(|e| e.get(names::PACKED));
             let engine = packed.and_then(|p| p.get("engine")?.as_str()).map(str::to_owned);
             return Err(engine.map_or(PackError::NothingBaked, |engine| PackError::AlreadyPacked { engine }));

@@ -242,6 +242,9 @@ fn one_channel_is_enough_and_none_is_refused_with_the_remedy() {
     assert!(attribute(&only_soft, PLACE, "COLOR_0").unwrap().is_none());
     asset.layers = layers(4, None, None);
     let error = pack(&asset, Engine::Core).unwrap_err();
+    assert!(matches!(error, PackError::NoLeaves) && error.to_string().contains("--leaf"), "{error}");
+    asset.layers.pop();
+    let error = pack(&asset, Engine::Core).unwrap_err();
     assert!(matches!(error, PackError::NothingBaked) && error.to_string().contains("foliar-density"), "{error}");
     let error = pack(&again(&only_soft), Engine::Blender).unwrap_err();
     assert!(matches!(&error, PackError::AlreadyPacked { engine } if engine == "core"), "{error}");
