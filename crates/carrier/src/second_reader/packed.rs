@@ -72,14 +72,14 @@ impl Packed<'_> {
                     ensure(fits, || format!("{name} is no VEC3 of floats, as every custom attribute must be"))?;
                     self.numbers(attributes, &name, count)?;
                 }
-                Ok(custom())
+                Ok(ours(custom(), &[names::AMBIENT, names::SOFT_NORMAL_ZUP, names::PACKED_LEAF_ID]))
             }
             Engine::Luft07 => {
                 let rows = self.numbers(attributes, names::NORMAL_AMBIENT, count)?.unwrap_or_default();
                 let fits =
                     rows.iter().all(|row| row.len() == 3 && (1e-3 - ROUNDED..=1.0 + ROUNDED).contains(&length(row)));
                 ensure(fits, || format!("{} has a length outside 0.001 to 1", names::NORMAL_AMBIENT))?;
-                Ok(custom())
+                Ok(ours(custom(), &[names::NORMAL_AMBIENT]))
             }
         }
     }
@@ -128,6 +128,11 @@ impl Packed<'_> {
             _ => float(self.bin, at),
         }
     }
+}
+
+/// Those that packing writes.
+fn ours(names: Vec<String>, written: &[&str]) -> Vec<String> {
+    names.into_iter().filter(|name| written.contains(&name.as_str())).collect()
 }
 
 fn length(vector: &[f64]) -> f64 {
