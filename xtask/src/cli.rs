@@ -48,6 +48,11 @@ enum Chore {
     },
     /// Runs the Khronos validator over every output of the tests
     Validator,
+    /// Compares a room's modes with traced light, on four trees, and writes docs/tradeoff
+    Tradeoff {
+        /// The room
+        name: String,
+    },
     /// Reads every output of the tests by a reader that shares no code with the writer
     SecondReader,
     /// Loads every packed output of the tests with three and Blender
@@ -73,6 +78,7 @@ pub fn main() -> ExitCode {
         Chore::Accuracy { name } => with_foliar::run("accuracy", name.as_deref()),
         Chore::Gallery { name } => with_foliar::run("gallery", name.as_deref()),
         Chore::Validator => validator::run(),
+        Chore::Tradeoff { name } => with_foliar::run("tradeoff", Some(&name)),
         Chore::SecondReader => with_foliar::run("second-reader", None),
         Chore::Loaders => loaders::run(),
         Chore::Faults { names } => faults::run(&names),

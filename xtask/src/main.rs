@@ -23,6 +23,8 @@ mod second_reading;
 #[cfg(feature = "foliar")]
 mod shared_trees;
 mod tidy;
+#[cfg(feature = "foliar")]
+mod tradeoff;
 mod validator;
 mod with_foliar;
 

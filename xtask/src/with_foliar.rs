@@ -18,10 +18,10 @@ pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
 /// Runs a chore.
 #[cfg(feature = "foliar")]
 pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
-    use crate::{accuracy, bench, gallery, second_reading};
+    use crate::{accuracy, bench, gallery, second_reading, tradeoff};
     match chore {
         // Figures of an unoptimized build say nothing.
-        "bench" | "gallery" if cfg!(debug_assertions) => {
+        "bench" | "gallery" | "tradeoff" if cfg!(debug_assertions) => {
             let mut cargo = repo::cargo();
             cargo.args(["run", "--quiet", "--release", "--package", "xtask", "--features", "foliar", "--", chore]);
             repo::run(cargo.args(name))
@@ -29,6 +29,7 @@ pub fn run(chore: &str, name: Option<&str>) -> Result<()> {
         "accuracy" => accuracy::run(name),
         "bench" => bench::run(name),
         "gallery" => gallery::run(name),
+        "tradeoff" => tradeoff::run(name),
         _ => second_reading::run(),
     }
 }

@@ -9,6 +9,7 @@ mod gates;
 mod oracle;
 mod programs;
 mod reading;
+mod shading;
 
 use anyhow::{Context, Result, bail};
 use gates::Gate;
@@ -45,6 +46,9 @@ const MEASURES: &[Measure] = &[
     ("depth-correlation-luft", correlation::luft),
     ("depth-correlation-crowns", correlation::crown_volumes),
     ("rim-less-inside", correlation::rim_less_inside),
+    ("sky-shading-correlation", shading::correlation),
+    ("ambient-variance-third", shading::third_best),
+    ("ambient-variance-worst", shading::worst),
     ("bake-seconds", programs::bake),
     ("obj-parse-ratio", reading::parse),
     ("obj-read-ratio", reading::read),
