@@ -66,6 +66,15 @@ fn islands_and_stems_are_told_from_branches() {
 }
 
 #[test]
+fn tubes_end_to_end_are_one_branch() {
+    let plant = hard_tree("coincident-rings", 1).unwrap().plant;
+    let found = find(plant.base(), plant.structure(), &BranchParams::default()).unwrap();
+    // A trunk, 14 boughs, 6 branches on each, 2 twigs on each: two tubes every one.
+    assert_eq!(found.branches.count(), 1 + 14 * (1 + 6 * (1 + 2)));
+    assert!(found.reports.iter().all(|report| report.tubes == 2));
+}
+
+#[test]
 fn pivots_lie_on_the_parents_axis_and_vertices_know_their_rings() {
     let plant = hard_tree("clean", 1).unwrap().plant;
     let found = find(plant.base(), plant.structure(), &BranchParams::default()).unwrap().branches;
