@@ -52,6 +52,11 @@ pub fn run(name: Option<&str>) -> Result<()> {
     Ok(())
 }
 
+/// Mean parent accuracy over the shared trees whose truth is told, and how many they are.
+pub fn shared_mean() -> Result<(f64, usize)> {
+    shared::mean(|_| true)
+}
+
 /// Prints one row; the robust method's accuracy.
 fn row(name: &str, plant: &Plant, truth: &Truth) -> Result<Accuracy> {
     let of = |method| -> Result<Accuracy> {

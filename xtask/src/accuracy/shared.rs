@@ -1,7 +1,7 @@
 //! The shared trees with `tree_truth.json`: what their generators said, brought to our vertices and leaves.
 
 use super::row;
-use crate::shared_trees::{self, SharedTree};
+use crate::shared_trees;
 use anyhow::{Context, Result, bail};
 use foliar_plant::{NO_BRANCH, Part, Plant};
 use foliar_schema::Role;
@@ -14,6 +14,16 @@ const MEAN: f64 = 0.995;
 
 /// Prints a row each and their mean; how many gates are missed.
 pub fn run(wanted: impl Fn(&str) -> bool) -> Result<usize> {
+    let (mean, files) = mean(wanted)?;
+    if files == 0 {
+        return Ok(0);
+    }
+    println!("shared trees: mean parent accuracy {mean:.4} of {files} files, at least {MEAN}");
+    Ok(usize::from(mean < MEAN))
+}
+
+/// Prints a row each; mean parent accuracy and number of files.
+pub fn mean(wanted: impl Fn(&str) -> bool) -> Result<(f64, usize)> {
     let mut parents = Vec::new();
     for tree in shared_trees::all()?.iter().filter(|t| wanted(&t.name)) {
         let truth = tree.path.with_file_name("tree_truth.json");
@@ -22,21 +32,16 @@ pub fn run(wanted: impl Fn(&str) -> bool) -> Result<usize> {
         }
         let told: Value = serde_json::from_str(&std::fs::read_to_string(&truth)?)?;
         let plant = tree.read()?.plant;
-        let truth = truth_of(tree, &told, &plant).with_context(|| tree.name.clone())?;
+        let truth = truth_of(&told, &plant).with_context(|| tree.name.clone())?;
         let robust = row(&tree.name, &plant, &truth)?;
         list_wrong(&plant, &truth)?;
         parents.push(robust.parent);
     }
-    if parents.is_empty() {
-        return Ok(0);
-    }
-    let mean = parents.iter().sum::<f64>() / parents.len() as f64;
-    println!("shared trees: mean parent accuracy {mean:.4} of {} files, at least {MEAN}", parents.len());
-    Ok(usize::from(mean < MEAN))
+    Ok((parents.iter().sum::<f64>() / parents.len() as f64, parents.len()))
 }
 
 /// The truth of a file, continuations merged by the rule that the step uses.
-fn truth_of(tree: &SharedTree, told: &Value, plant: &Plant) -> Result<Truth> {
+fn truth_of(told: &Value, plant: &Plant) -> Result<Truth> {
     let wood = (0..plant.parts().len()).find(|&p| plant.role(p) == Role::Wood).context("no wood")?;
     let part = &plant.parts()[wood];
     let pieces = pieces(part);
@@ -55,7 +60,6 @@ fn truth_of(tree: &SharedTree, told: &Value, plant: &Plant) -> Result<Truth> {
             axes[*truth as usize] = found.axes[own.branch as usize].clone();
         }
     }
-    let _ = tree;
     Ok(Truth { parents, vertices, leaves }.merged(&axes))
 }
 

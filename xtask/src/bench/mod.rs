@@ -1,6 +1,7 @@
 //! Every figure that foliar must reach, measured: figure, gate, peer, processor, pass or MISS.
 
 mod allocations;
+mod branches;
 mod calibration;
 pub mod correlation;
 pub mod density;
@@ -37,6 +38,10 @@ const MEASURES: &[Measure] = &[
     ("calibration-seconds", calibration::seconds),
     ("density-seconds", density::seconds),
     ("density-memory", density::memory),
+    ("branches-seconds", branches::seconds),
+    ("branches-large-seconds", branches::large_seconds),
+    ("branches-memory", branches::memory),
+    ("branches-wrong-parents", branches::wrong_parents),
     ("expected-files", expected::files),
     ("linden-leaves", expected::linden_leaves),
     ("oracle-error", oracle::worst),
