@@ -66,6 +66,15 @@ fn islands_and_stems_are_told_from_branches() {
 }
 
 #[test]
+fn caps_belong_to_the_tubes_that_they_close() {
+    for name in ["caps-and-cones", "caps-apart"] {
+        let plant = hard_tree(name, 1).unwrap().plant;
+        let found = find(plant.base(), plant.structure(), &BranchParams::default()).unwrap().branches;
+        assert_eq!(found.count(), plant.branches().unwrap().count(), "{name}");
+    }
+}
+
+#[test]
 fn tubes_end_to_end_are_one_branch() {
     let plant = hard_tree("coincident-rings", 1).unwrap().plant;
     let found = find(plant.base(), plant.structure(), &BranchParams::default()).unwrap();

@@ -28,12 +28,12 @@ pub(super) struct Mesh {
 }
 
 /// Corner of a face: where it came from.
-struct Corners {
+pub(super) struct Corners {
     /// Node of each corner, three per face.
-    nodes: Vec<u32>,
+    pub nodes: Vec<u32>,
     /// Part of each run of faces, and its first face.
     parts: Vec<(usize, usize)>,
-    points: Vec<DVec3>,
+    pub points: Vec<DVec3>,
 }
 
 impl Mesh {
@@ -50,6 +50,9 @@ impl Mesh {
         }
         if has_seams(&corners, &pieces) {
             weld_equal(&mut corners, |face| Some(pieces[face]), Some(&pieces));
+            pieces = self::pieces(&corners);
+        }
+        if super::caps::join(&mut corners, &pieces) {
             pieces = self::pieces(&corners);
         }
         sort(geometry, roles, &corners, &pieces)
@@ -89,7 +92,7 @@ fn gather(geometry: &Geometry, roles: &[Role]) -> Corners {
 
 /// Calls `visit` with the faces of each edge of the mesh, and the edge's lower and higher node. Faces of one
 /// node or two count by the edges that they have.
-fn edges(nodes: &[u32], points: usize, mut visit: impl FnMut(u32, u32, &[(u32, u32)])) {
+pub(super) fn edges(nodes: &[u32], points: usize, mut visit: impl FnMut(u32, u32, &[(u32, u32)])) {
     let mut starts = vec![0u32; points + 1];
     let sides = |face: &[u32]| [(face[0], face[1]), (face[1], face[2]), (face[2], face[0])];
     for face in nodes.chunks_exact(3) {
@@ -156,7 +159,7 @@ fn pieces_are_few_faces(corners: &Corners, soup: &[bool]) -> bool {
 }
 
 /// The position as bits, -0 as 0: what is equal is one place.
-fn bits(place: DVec3) -> [u64; 3] {
+pub(super) fn bits(place: DVec3) -> [u64; 3] {
     place.to_array().map(|x| (x + 0.0).to_bits())
 }
 

@@ -7,6 +7,7 @@ mod accuracy;
 mod arborescence;
 mod bands;
 mod bind;
+mod caps;
 mod contact;
 mod find;
 mod hang;
