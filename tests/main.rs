@@ -21,4 +21,5 @@ mod neighbors;
 mod pack;
 mod plants;
 mod streams;
+mod surface;
 mod view;

@@ -64,6 +64,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar' -ScriptBlock {
             [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Works in so many threads; the result is the same for any number')
             [CompletionResult]::new('--format', '--format', [CompletionResultType]::ParameterName, 'How results are printed: for people, as JSON lines, or the findings for machines that show them')
             [CompletionResult]::new('--only', '--only', [CompletionResultType]::ParameterName, 'Bakes this room only, whatever the scene requires; repeatable')
+            [CompletionResult]::new('--surface', '--surface', [CompletionResultType]::ParameterName, 'Writes the closed surface around the foliage (crown hull, collision, impostor); needs no other output')
             [CompletionResult]::new('--keep-going', '--keep-going', [CompletionResultType]::ParameterName, 'Goes on with the other inputs where one fails')
             [CompletionResult]::new('--explain-roles', '--explain-roles', [CompletionResultType]::ParameterName, 'Prints each part with its role and the evidence; without an output, stops there')
             [CompletionResult]::new('--no-config', '--no-config', [CompletionResultType]::ParameterName, 'Reads neither foliar.toml nor the asset''s own file')

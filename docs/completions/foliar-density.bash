@@ -23,7 +23,7 @@ _foliar__density() {
 
     case "${cmd}" in
         foliar__density)
-            opts="-o -d -q -v -h -V --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --radius-m --threshold --darkest-density --density-unit --darkest-ambient --exponent --self --ambient --generators --subsample --normals --channels --quality --neighbor --blend --surface-cell-m --surface-memory-mb --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
+            opts="-o -d -q -v -h -V --output --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --radius-m --threshold --darkest-density --density-unit --darkest-ambient --exponent --self --ambient --generators --subsample --normals --channels --quality --neighbor --blend --surface-cell-m --surface-memory-mb --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --surface --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -195,6 +195,10 @@ _foliar__density() {
                     ;;
                 --format)
                     COMPREPLY=($(compgen -W "human json sarif junit github" -- "${cur}"))
+                    return 0
+                    ;;
+                --surface)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 *)

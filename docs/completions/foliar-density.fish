@@ -58,6 +58,7 @@ json\t''
 sarif\t''
 junit\t''
 github\t''"
+complete -c foliar-density -l surface -d 'Writes the closed surface around the foliage (crown hull, collision, impostor); needs no other output' -r -F
 complete -c foliar-density -l keep-going -d 'Goes on with the other inputs where one fails'
 complete -c foliar-density -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar-density -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'

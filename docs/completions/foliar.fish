@@ -72,6 +72,7 @@ sarif\t''
 junit\t''
 github\t''"
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l only -d 'Bakes this room only, whatever the scene requires; repeatable' -r
+complete -c foliar -n "__fish_foliar_using_subcommand bake" -l surface -d 'Writes the closed surface around the foliage (crown hull, collision, impostor); needs no other output' -r -F
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l keep-going -d 'Goes on with the other inputs where one fails'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l explain-roles -d 'Prints each part with its role and the evidence; without an output, stops there'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'

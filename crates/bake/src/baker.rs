@@ -3,6 +3,7 @@
 use crate::{Array, AttributeKey, BakeError, ColumnKey, Placed};
 use foliar_plant::{Plant, Raster};
 use foliar_schema::Scene;
+use glam::{DVec3, Vec3};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -105,6 +106,19 @@ pub struct Baked {
     pub findings: Vec<foliar_schema::Finding>,
 }
 
+/// A closed surface that a room draws around a plant: a file of its own, never part of a master.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hull {
+    /// Where its positions start from, meters, in the scene's rest frame.
+    pub origin: DVec3,
+    /// Vertices, meters from the origin; none where there is nothing to enclose.
+    pub positions: Vec<Vec3>,
+    /// Unit, outward.
+    pub normals: Vec<Vec3>,
+    /// Counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
 /// Hears how far a bake is.
 pub trait Progress: Sync {
     /// `done` of `total` steps of `stage`.
@@ -148,9 +162,23 @@ pub trait Baker: Sync {
     /// [`BakeError`]; nothing is ever half done.
     fn bake(&self, inputs: &Inputs, params: &Map<String, Value>, progress: &dyn Progress) -> Result<Baked, BakeError>;
 
+    /// The surface that the room draws around the plant; `None` for a room that knows none.
+    fn hull(&self) -> Option<&dyn Enclose> {
+        None
+    }
+
     /// The shortest correct program for the same result (f64, all pairs): what tests compare with.
     ///
     /// # Errors
     /// As [`Baker::bake`].
     fn reference(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Baked, BakeError>;
+}
+
+/// A room that knows a surface around the plant.
+pub trait Enclose {
+    /// Meshes it. `params` are those of the room's bake.
+    ///
+    /// # Errors
+    /// As [`Baker::bake`].
+    fn enclose(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Hull, BakeError>;
 }

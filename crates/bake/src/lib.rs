@@ -12,7 +12,7 @@ pub mod reframe;
 mod run;
 
 pub use array::Array;
-pub use baker::{Baked, Baker, Facts, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung};
+pub use baker::{Baked, Baker, Enclose, Facts, Hull, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung};
 pub use error::BakeError;
 pub use hash::base_hash;
 pub use layer::{AttributeKey, ColumnKey, Layer};

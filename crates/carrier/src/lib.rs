@@ -12,6 +12,7 @@ mod document;
 pub mod edit;
 mod error;
 mod extract;
+mod hull;
 pub mod images;
 mod instances;
 mod layer_file;
@@ -34,6 +35,7 @@ mod uvs;
 
 pub use document::Document;
 pub use error::CarrierError;
+pub use hull::hull_document;
 pub use output::{Step, write_files_with};
 
 use foliar_bake::Layer;

@@ -1,11 +1,13 @@
 //! The implicit surface of a plant's own foliage (Luft07 eq. 3), and realigned normals from it.
 
 use crate::ROOM;
+use crate::fast::density_unit;
 use crate::field::{Field, Query};
 use crate::generators::Foliage;
 use crate::params::Params;
 use crate::surface::{Balls, DensityField, Surface, SurfaceError, SurfaceParams, extract, nearest};
-use foliar_bake::BakeError;
+use foliar_bake::{BakeError, Hull};
+use foliar_plant::Plant;
 use glam::DVec3;
 
 /// The density of the plant's own balls: a neighbor darkens a plant, and does not grow into its surface.
@@ -31,6 +33,16 @@ pub(crate) fn surface(
         ..SurfaceParams::default()
     };
     extract(field, &balls, &meshing).map_err(refusal)
+}
+
+/// The outside of the surface as a mesh in the scene's rest frame, without the walls of its cavities.
+///
+/// # Errors
+/// As [`surface`].
+pub(crate) fn around(plant: &Plant, foliage: &Foliage, params: &Params) -> Result<Hull, BakeError> {
+    let found = surface(foliage, &field(foliage), density_unit(foliage, params), params)?;
+    let Surface { origin, positions, normals, triangles, .. } = found.without_cavities();
+    Ok(Hull { origin: plant.center() + origin, positions, normals, triangles })
 }
 
 /// In the names of the room's own parameters.

@@ -31,7 +31,7 @@ pub use ambient::ambient_coefficient;
 pub use depth::crown_depth;
 pub use directions::{DIRECTIONS, sky_directions};
 pub use field::{Field, Query, Sample};
-use foliar_bake::{BakeError, Baked, Baker, Facts, Inputs, Needs, Progress, Requirement, Rung};
+use foliar_bake::{BakeError, Baked, Baker, Enclose, Facts, Hull, Inputs, Needs, Progress, Requirement, Rung};
 use foliar_schema::{Scene, names};
 pub use generators::{Foliage, Generator, NO_GROUP};
 pub use kernel::Isa;
@@ -105,6 +105,10 @@ impl Baker for Density {
         Ok(output::baked(plant, &foliage, &places, &values, &params))
     }
 
+    fn hull(&self) -> Option<&dyn Enclose> {
+        Some(self)
+    }
+
     fn reference(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Baked, BakeError> {
         let params = Params::from_json(params)?;
         let (Some(plant), Some(foliage)) = (inputs.plant, generators::foliage(inputs, &params)) else {
@@ -113,5 +117,15 @@ impl Baker for Density {
         let places = fast::Places::new(plant, &params);
         let values = reference::values(plant, &foliage, &places, &params)?;
         Ok(output::baked(plant, &foliage, &places, &values, &params))
+    }
+}
+
+impl Enclose for Density {
+    fn enclose(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Hull, BakeError> {
+        let params = Params::from_json(params)?;
+        let (Some(plant), Some(foliage)) = (inputs.plant, generators::foliage(inputs, &params)) else {
+            return Ok(Hull::default());
+        };
+        hull::around(plant, &foliage, &params)
     }
 }

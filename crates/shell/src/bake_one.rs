@@ -13,7 +13,7 @@ use crate::report::Report;
 use crate::rooms::{self, Room};
 use crate::runner::Product;
 use crate::{Failure, config::Settings};
-use foliar_bake::{Baker, Facts, Layer};
+use foliar_bake::{Baker, Facts, Inputs, Layer, Maps};
 use foliar_carrier::{Document, OutputFile};
 use foliar_schema::{Finding, code, names};
 use foliar_view::ViewParams;
@@ -53,12 +53,19 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
     report.plan(&rows);
     let neighbors = neighbors::load(baking, &job.input, &loaded, &rows, &stands, report)?;
     report.text = asked(baking, &loaded, &rows);
-    let Some(output) = &job.output else { return Ok(Product::Planned) };
-    if baking.options.mode == Mode::DryRun {
+    let surface = baking.options.surface.as_deref();
+    if baking.options.mode == Mode::DryRun || job.output.is_none() && surface.is_none() {
         return Ok(Product::Planned);
     }
-    let rooms = bake_rooms(baking, &loaded, &neighbors, &rows, report)?;
-    Ok(Product::Files(finish(baking, &loaded, &rows, &rooms, output, report)?))
+    let mut files = surface.map_or(Ok(Vec::new()), |path| enclose(baking, &loaded, &rows, path, report))?;
+    if let (None, Some(path)) = (&job.output, surface) {
+        report.set("output", path.display().to_string());
+    }
+    if let Some(output) = &job.output {
+        let rooms = bake_rooms(baking, &loaded, &neighbors, &rows, report)?;
+        files.extend(finish(baking, &loaded, &rows, &rooms, output, report)?);
+    }
+    Ok(Product::Files(files))
 }
 
 /// The roles and the plan for people, where they were asked for.
@@ -85,6 +92,29 @@ fn bake_rooms(
     report.find(rooms.iter().flat_map(|room| room.findings.iter().cloned()));
     baking.console.log(&report.lap("rooms"));
     Ok(rooms)
+}
+
+/// The surface around the foliage, of the room that knows one, needed or not.
+fn enclose(
+    baking: &Baking,
+    loaded: &Loaded,
+    rows: &[Row],
+    path: &Path,
+    report: &mut Report,
+) -> Result<Vec<OutputFile>, Failure> {
+    let knows = rows.iter().find_map(|row| Some((row, row.baker.hull()?)));
+    let (row, room) = knows.ok_or_else(|| Failure::usage("--surface: no room knows a surface"))?;
+    let inputs = Inputs { plant: Some(&loaded.plant), maps: &Maps::new(), neighbors: &[] };
+    let hull = room.enclose(&inputs, &row.params)?;
+    if hull.triangles.is_empty() {
+        let text = format!(
+            "{}: no foliage to enclose: the surface is an empty scene; name leaves with --leaf",
+            row.baker.room()
+        );
+        report.find([Finding::new(&code::LEAF_NONE, text)]);
+    }
+    baking.console.log(&report.lap("surface"));
+    Ok(foliar_carrier::encode(&foliar_carrier::hull_document(&hull, "crown"), path)?)
 }
 
 /// Everything that will be written, the commit last.

@@ -225,6 +225,15 @@ pub fn with_baking(command: Command) -> Command {
         .arg(switch("explain-roles", "Prints each part with its role and the evidence; without an output, stops there"))
 }
 
+/// `--surface FILE.glb`, where a room knows a surface.
+pub fn with_surface(command: Command, bakers: &[&dyn Baker]) -> Command {
+    if bakers.iter().all(|baker| baker.hull().is_none()) {
+        return command;
+    }
+    let help = "Writes the closed surface around the foliage (crown hull, collision, impostor); needs no other output";
+    command.arg(path("surface", "FILE.glb", help))
+}
+
 /// `--only ROOM`.
 pub fn only(bakers: &[&dyn Baker]) -> Arg {
     let rooms: Vec<&'static str> = bakers.iter().map(|baker| baker.room()).collect();

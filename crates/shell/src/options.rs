@@ -48,6 +48,8 @@ pub struct Options {
     pub keep_going: bool,
     /// `--picture`.
     pub picture: Option<PathBuf>,
+    /// `--surface`.
+    pub surface: Option<PathBuf>,
     /// `--dry-run`, `--check`, or neither.
     pub mode: Mode,
     /// `--report`.
@@ -88,6 +90,7 @@ impl Options {
             directory: path("directory"),
             keep_going: is("keep-going"),
             picture: path("picture"),
+            surface: path("surface"),
             mode: match (is("check"), is("dry-run")) {
                 (true, _) => Mode::Check,
                 (_, true) => Mode::DryRun,

@@ -23,8 +23,9 @@ pub struct Job {
 /// [`Failure::Usage`] where one file is named for several inputs.
 pub fn jobs(options: &Options) -> Result<Vec<Job>, Failure> {
     if options.inputs.len() > 1 {
-        for (given, flag) in [(options.output.is_some(), "-o"), (options.picture.is_some(), "--picture")] {
-            if given {
+        let single = [(&options.output, "-o"), (&options.picture, "--picture"), (&options.surface, "--surface")];
+        for (given, flag) in single {
+            if given.is_some() {
                 let text = format!("{flag} names one file for {} inputs: use -d DIR", options.inputs.len());
                 return Err(Failure::usage(text));
             }
@@ -58,6 +59,7 @@ pub fn refuse_duplicates(options: &Options, jobs: &[Job]) -> Result<(), Failure>
     let outputs = jobs.iter().filter_map(|job| Some((job.output.clone()?, job.input.display().to_string())));
     let lists = [
         (&options.picture, "--picture"),
+        (&options.surface, "--surface"),
         (&options.report, "--report"),
         (&options.depfile, "--depfile"),
         (&options.outputs, "--outputs"),
@@ -87,6 +89,19 @@ pub fn check_ending(output: &Path, layers_too: bool) -> Result<(), Failure> {
             let also = if layers_too { ", .layer" } else { "" };
             Err(Failure::usage(format!("-o {}: must end in .glb, .gltf{also}, or be -", output.display())))
         }
+    }
+}
+
+/// Refuses a surface that could not be told for a glTF in one file.
+///
+/// # Errors
+/// [`Failure::Usage`] with the ending.
+pub fn check_surface(options: &Options) -> Result<(), Failure> {
+    match &options.surface {
+        Some(path) if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("glb")) => {
+            Err(Failure::usage(format!("--surface {}: must end in .glb", path.display())))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -113,7 +113,7 @@ fn one(options: &Options, console: &Console, job: &Job, work: Work, done: &mut D
             let names: Vec<String> = report.written.iter().map(|path| path.display().to_string()).collect();
             report.set("outputs", names);
             done.written.append(&mut report.written);
-            if let (Status::Outdated, Some(output)) = (status, &job.output) {
+            if let (Status::Outdated, Some(output)) = (status, job.output.as_ref().or(options.surface.as_ref())) {
                 done.outdated.push(output.display().to_string());
             }
         }
@@ -126,9 +126,10 @@ fn one(options: &Options, console: &Console, job: &Job, work: Work, done: &mut D
     report.finish()
 }
 
-/// What a rule for make is about: the output, or the report where there is no other.
+/// What a rule for make is about: the output, else the surface, or the report where there is no other.
 fn rule_target(options: &Options, job: &Job) -> Option<PathBuf> {
-    job.output.clone().filter(|output| !is_dash(output)).or_else(|| options.report.clone())
+    let output = job.output.as_ref().filter(|output| !is_dash(output));
+    output.or(options.surface.as_ref()).or(options.report.as_ref()).cloned()
 }
 
 /// Prints and judges the findings, then puts the product in place.

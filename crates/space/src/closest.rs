@@ -26,7 +26,19 @@ struct Node {
     count: u32,
 }
 
+/// A triangle while the tree is built: what is looked at together lies together.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    middle: Vec3,
+    index: u32,
+}
+
 impl Node {
+    /// A leaf whose box is not known yet.
+    fn of(start: usize, count: usize) -> Self {
+        Node { low: Vec3::ZERO, high: Vec3::ZERO, first: start as u32, count: count as u32 }
+    }
+
     #[inline]
     fn distance_squared(&self, point: Vec3) -> f32 {
         (self.low - point).max(point - self.high).max(Vec3::ZERO).length_squared()
@@ -47,29 +59,45 @@ pub struct TriangleTree {
 impl TriangleTree {
     /// Builds the tree. Every coordinate must be finite. The same input gives the same tree.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
-        let mut tree = TriangleTree { order: (0..triangles.len() as u32).collect(), ..TriangleTree::default() };
+        let mut tree = TriangleTree::default();
         if triangles.is_empty() {
             return tree;
         }
-        let middles: Vec<Vec3> = triangles.iter().map(|t| (t[0] + t[1] + t[2]) / 3.0).collect();
-        tree.nodes.push(bounds(&tree.order, triangles, 0));
-        let mut pending = vec![(0usize, 0usize, triangles.len())];
-        while let Some((node, start, end)) = pending.pop() {
-            if end - start <= LEAF_SIZE {
+        let middle = |(index, t): (u32, &[Vec3; 3])| Item { middle: (t[0] + t[1] + t[2]) / 3.0, index };
+        let mut items: Vec<Item> = (0..).zip(triangles).map(middle).collect();
+        tree.nodes.push(Node::of(0, items.len()));
+        let mut pending = vec![0usize];
+        while let Some(node) = pending.pop() {
+            let (start, count) = (tree.nodes[node].first as usize, tree.nodes[node].count as usize);
+            if count <= LEAF_SIZE {
                 continue;
             }
-            let half = start + (end - start) / 2;
-            split(&mut tree.order[start..end], half - start, &middles);
+            split(&mut items[start..start + count], count / 2);
             let left = tree.nodes.len();
-            tree.nodes.push(bounds(&tree.order[start..half], triangles, start));
-            tree.nodes.push(bounds(&tree.order[half..end], triangles, half));
-            tree.nodes[node].first = left as u32;
-            tree.nodes[node].count = 0;
-            pending.push((left, start, half));
-            pending.push((left + 1, half, end));
+            tree.nodes.extend([Node::of(start, count / 2), Node::of(start + count / 2, count - count / 2)]);
+            (tree.nodes[node].first, tree.nodes[node].count) = (left as u32, 0);
+            pending.extend([left, left + 1]);
         }
+        tree.order = items.iter().map(|item| item.index).collect();
         tree.corners = tree.order.iter().map(|&i| triangles[i as usize]).collect();
+        tree.bound();
         tree
+    }
+
+    /// Boxes from the leaves up: children stand behind their parents.
+    fn bound(&mut self) {
+        for at in (0..self.nodes.len()).rev() {
+            let Node { first, count, .. } = self.nodes[at];
+            let (first, none) = (first as usize, (Vec3::INFINITY, Vec3::NEG_INFINITY));
+            let (low, high) = if count == 0 {
+                let [a, b] = [self.nodes[first], self.nodes[first + 1]];
+                (a.low.min(b.low), a.high.max(b.high))
+            } else {
+                let corners = self.corners[first..first + count as usize].iter().flatten();
+                corners.fold(none, |(low, high), p| (low.min(*p), high.max(*p)))
+            };
+            (self.nodes[at].low, self.nodes[at].high) = (low, high);
+        }
     }
 
     /// Whether there are no triangles.
@@ -132,20 +160,12 @@ impl TriangleTree {
 }
 
 /// Puts the `half` triangles with the lowest middles along the longest axis first; ties by index.
-fn split(order: &mut [u32], half: usize, middles: &[Vec3]) {
-    let (low, high) = order.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &i| {
-        (low.min(middles[i as usize]), high.max(middles[i as usize]))
-    });
+fn split(items: &mut [Item], half: usize) {
+    let (low, high) = items
+        .iter()
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), i| (low.min(i.middle), high.max(i.middle)));
     let axis = (high - low).max_position();
-    order.select_nth_unstable_by(half, |&a, &b| {
-        middles[a as usize][axis].total_cmp(&middles[b as usize][axis]).then(a.cmp(&b))
-    });
-}
-
-fn bounds(order: &[u32], triangles: &[[Vec3; 3]], first: usize) -> Node {
-    let corners = order.iter().flat_map(|&i| triangles[i as usize]);
-    let (low, high) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)));
-    Node { low, high, first: first as u32, count: order.len() as u32 }
+    items.select_nth_unstable_by(half, |a, b| a.middle[axis].total_cmp(&b.middle[axis]).then(a.index.cmp(&b.index)));
 }
 
 /// The point of a triangle nearest to `point`. Any triangle will do: where the plane says nothing

@@ -11,6 +11,7 @@ mod oracle;
 mod programs;
 mod reading;
 mod shading;
+mod surface;
 
 use anyhow::{Context, Result, bail};
 use gates::Gate;
@@ -22,11 +23,18 @@ pub struct Figure {
     pub value: f64,
     /// What it is compared with, measured in the same run; or why there is no peer.
     pub peer: String,
+    /// Whether it is nothing without a peer, and there is none: neither pass nor miss.
+    pub absent: bool,
 }
 
 impl Figure {
     fn new(value: f64, peer: impl Into<String>) -> Self {
-        Figure { value, peer: peer.into() }
+        Figure { value, peer: peer.into(), absent: false }
+    }
+
+    /// A ratio to a peer that is not installed.
+    fn absent(peer: impl Into<String>) -> Self {
+        Figure { value: f64::NAN, peer: peer.into(), absent: true }
     }
 }
 
@@ -58,6 +66,12 @@ const MEASURES: &[Measure] = &[
     ("obj-parse-ratio", reading::parse),
     ("obj-read-ratio", reading::read),
     ("picture-seconds", programs::picture),
+    ("surface-normals-seconds", surface::normals),
+    ("surface-time-40k-4", surface::small_coarse),
+    ("surface-time-40k-8", surface::small_fine),
+    ("surface-time-1m-4", surface::large_coarse),
+    ("surface-time-1m-8", surface::large_fine),
+    ("surface-memory-1m", surface::large_memory),
 ];
 
 /// Measures every figure whose name contains `name`.
@@ -90,6 +104,10 @@ fn with_calibration<'a>(mut chosen: Vec<&'a Measure>, gates: &BTreeMap<String, G
 
 /// Prints one figure; whether it passes.
 fn report(name: &str, gate: &Gate, figure: &Figure) -> bool {
+    if figure.absent {
+        println!("skip  {name}: {}; {}", gate.what, figure.peer);
+        return true;
+    }
     let passes = gate.passes(figure.value);
     let unit = if gate.unit == "1" { String::new() } else { format!(" {}", gate.unit) };
     let bound = |words: &str, limit: f64| format!("{words} {}{unit}", digits(limit));

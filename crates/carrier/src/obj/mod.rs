@@ -3,12 +3,12 @@
 //! [`parse`] reads the geometry as it stands in the file; [`convert`] turns it into meters and Y up,
 //! completes normals and tangents, and makes materials and images.
 
-mod build;
+pub(crate) mod build;
 mod file;
 mod frame;
 mod library;
 mod materials;
-mod mesh;
+pub(crate) mod mesh;
 mod mtl;
 mod normals;
 mod notes;

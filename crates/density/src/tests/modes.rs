@@ -1,7 +1,7 @@
 //! The paper's own modes and the surface's normals: what each means, and that each bears every extreme.
 
 use super::plants::{Quad, crown, plant};
-use crate::surface::{Balls, SurfaceParams, extract_fast, nearest};
+use crate::surface::{Balls, Surface, SurfaceParams, check_mesh, extract_fast, nearest, pieces};
 use crate::{Density, Field, Foliage, Generator, GeneratorKind, Params, fast};
 use foliar_bake::{BakeError, Inputs, Layer, Maps, Quiet, Request, run};
 use foliar_plant::{Plant, sample::odd_plants};
@@ -231,6 +231,28 @@ fn the_surface_turns_with_the_plant() {
     // thinner than a cell's diagonal may come and go with the lattice; the foot, and with it the normal, jumps
     // where two sheets are equally near: only its distance is a law.
     assert!(off[off.len() * 9 / 10] < 0.1 * cell && off[off.len() - 1] < 3.0f64.sqrt() * cell, "{:?}", off.last());
+}
+
+#[test]
+fn the_hull_of_every_odd_plant_is_closed_and_outward() {
+    for sample in odd_plants() {
+        let maps = Maps::new();
+        let inputs = Inputs { plant: Some(&sample.plant), maps: &maps, neighbors: &[] };
+        let params = foliar_bake::resolve_params(&Density, &Default::default(), &Default::default()).unwrap();
+        let hull = foliar_bake::Enclose::enclose(&Density, &inputs, &params).unwrap();
+        assert_eq!(hull.triangles.is_empty(), sample.plant.leaves().is_empty(), "{}", sample.name);
+        assert!(check_mesh(&hull.triangles, hull.positions.len()).is_empty(), "{}", sample.name);
+        let surface = Surface { positions: hull.positions, triangles: hull.triangles, ..Surface::default() };
+        assert!(pieces(&surface).iter().all(|piece| piece.volume > 0.0), "{}", sample.name);
+        let bounds = surface.bounds().map(|(middle, half)| (middle + hull.origin - sample.plant.center(), half));
+        // It encloses the foliage where the foliage is.
+        let size = sample.plant.size().max_element();
+        assert!(
+            bounds.is_none_or(|(middle, half)| middle.length() <= size && half.max_element() <= 3.0 * size),
+            "{}",
+            sample.name
+        );
+    }
 }
 
 #[test]

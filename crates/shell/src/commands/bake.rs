@@ -39,6 +39,7 @@ pub fn bake(
     let console = options.console();
     let jobs = if again { in_place(options)? } else { outputs::jobs(options)? };
     check_outputs(options, &jobs)?;
+    outputs::check_surface(options)?;
     let sources = Sources::new(call, direct)?;
     let baking = Baking { bakers: call.bakers, only, sources: &sources, options, console: &console, again };
     runner::run(options, &console, &jobs, &mut |job, report| bake_one(&baking, job, report))
@@ -56,7 +57,7 @@ fn check_outputs(options: &Options, jobs: &[Job]) -> Result<(), Failure> {
     for job in jobs {
         match &job.output {
             Some(output) => outputs::check_ending(output, true)?,
-            None if options.mode == Mode::DryRun || options.explain_roles => {}
+            None if options.mode == Mode::DryRun || options.explain_roles || options.surface.is_some() => {}
             None => return Err(Failure::usage("where to? say -o OUT for one input, -d DIR for several")),
         }
     }

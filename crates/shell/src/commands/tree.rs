@@ -49,8 +49,10 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
             baking(command.about(about), fields, Direct::Section("structure"))
         }
         Program::Room(room) => {
-            let about = bakers.iter().find(|baker| baker.room() == room).map_or("", |baker| baker.about());
-            baking(command.about(format!("Bakes one room: {about}")), fields, Direct::Section(room))
+            let own: Vec<&dyn Baker> = bakers.iter().copied().filter(|baker| baker.room() == room).collect();
+            let about = own.first().map_or("", |baker| baker.about());
+            let command = baking(command.about(format!("Bakes one room: {about}")), fields, Direct::Section(room));
+            flags::with_surface(command, &own)
         }
         Program::View => view(command, fields),
         Program::Pack => pack(command, fields),
@@ -86,7 +88,8 @@ fn common(command: Command, fields: &Fields, direct: Direct, leaves: Leaves) -> 
 
 fn bake(bakers: &[&dyn Baker], fields: &Fields) -> Command {
     let about = "Bakes trees all the way: import, structure, every room that the scene needs, one glTF";
-    baking(Command::new("bake").about(about), fields, Direct::Assets).arg(flags::only(bakers))
+    let command = baking(Command::new("bake").about(about), fields, Direct::Assets).arg(flags::only(bakers));
+    flags::with_surface(command, bakers)
 }
 
 fn rebake(fields: &Fields) -> Command {
