@@ -32,16 +32,18 @@ pub(super) fn join(corners: &mut Corners, pieces: &[u32]) -> bool {
             margin.extend([(piece, a), (piece, b)]);
         }
     });
-    let mut nodes: Vec<(u32, u32)> =
-        corners.nodes.iter().enumerate().map(|(corner, &node)| (pieces[corner / 3], node)).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes.iter().for_each(|&(piece, _)| counts[piece as usize].nodes += 1);
     // A face of two nodes is an edge, which is counted already.
     let has_area = |n: &[u32]| n[0] != n[1] && n[1] != n[2] && n[2] != n[0];
     for (_, &piece) in corners.nodes.chunks_exact(3).zip(pieces).filter(|(n, _)| has_area(n)) {
         counts[piece as usize].faces += 1;
     }
+    // Nodes are told apart only where a cap is possible: tubes have far more faces than open edges.
+    let possible = |piece: u32| counts[piece as usize].faces <= counts[piece as usize].margin;
+    let few = corners.nodes.chunks_exact(3).zip(pieces).filter(|(_, piece)| possible(**piece));
+    let mut nodes: Vec<(u32, u32)> = few.flat_map(|(n, &piece)| [0, 1, 2].map(|k| (piece, n[k]))).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes.iter().for_each(|&(piece, _)| counts[piece as usize].nodes += 1);
     if !margin.iter().any(|(piece, _)| counts[*piece as usize].is_cap()) {
         return false;
     }
