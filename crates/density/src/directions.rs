@@ -8,10 +8,16 @@ use glam::DVec3;
 /// too, and because then no frame is preferred.
 pub const DIRECTIONS: usize = 32;
 
+/// Pairs of opposite directions.
+pub(crate) const AXES: usize = DIRECTIONS / 2;
+
+/// One direction of each pair: the first half of [`sky_directions`], whose second half mirrors it.
+pub(crate) fn sky_axes() -> [DVec3; AXES] {
+    std::array::from_fn(|i| fibonacci_sphere(i, DIRECTIONS))
+}
+
 /// The directions: half of a Fibonacci lattice, and its mirror image through the center.
 pub fn sky_directions() -> [DVec3; DIRECTIONS] {
-    std::array::from_fn(|i| {
-        let half = fibonacci_sphere(i % (DIRECTIONS / 2), DIRECTIONS);
-        if i < DIRECTIONS / 2 { half } else { -half }
-    })
+    let axes = sky_axes();
+    std::array::from_fn(|i| if i < AXES { axes[i] } else { -axes[i - AXES] })
 }

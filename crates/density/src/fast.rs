@@ -1,14 +1,13 @@
 //! The bake: places of a plant, density there, ambient coefficients and realigned normals (Luft07).
 
 use crate::ambient::ambient_coefficient;
-use crate::field::{Field, Query};
+use crate::choose;
+use crate::field::Query;
 use crate::generators::{Foliage, NO_GROUP};
 use crate::hull;
-use crate::measure;
 use crate::medium::SkySample;
 use crate::normals::realigned;
 use crate::params::{AmbientTerm, DensityUnit, NormalMode, Params, SelfLeaf};
-use crate::sky::Sky;
 use foliar_bake::BakeError;
 use foliar_plant::Plant;
 use foliar_schema::{MeasuredError, Role};
@@ -30,7 +29,7 @@ impl Places {
         let mut places = Places::default();
         for (index, part) in plant.parts().iter().enumerate().filter(|(i, _)| plant.role(*i) != Role::Other) {
             places.parts.push((index, places.queries.len()));
-            places.queries.extend((0..part.positions.len()).map(|vertex| Query {
+            places.queries.par_extend((0..part.positions.len()).into_par_iter().map(|vertex| Query {
                 position: part.rest_position(vertex) - plant.center(),
                 skip: plant.leaf_of(index, vertex).map_or(NO_GROUP, |leaf| skip(plant, leaf, params)),
             }));
@@ -55,13 +54,16 @@ fn skip(plant: &Plant, leaf: u32, params: &Params) -> u32 {
     }
 }
 
-/// Density in units of which threshold and darkest density are: the median over the plant's own balls
-/// (mean of the two middle ones), and never below the weight of one leaf, so that a leaf alone works.
-pub fn reference_density(foliage: &Foliage, params: &Params) -> f64 {
-    let queries = reference_queries(foliage, params);
-    let densities = Field::new(foliage.own(), foliage.radius).densities(&queries);
+/// Density in units of which threshold and darkest density are given: 1, or the median over the plant's own
+/// balls (mean of the two middle ones), and never below the weight of one leaf, so that a leaf alone works.
+/// `densities` knows the density of the plant's own balls.
+pub(crate) fn density_unit(foliage: &Foliage, params: &Params, densities: impl Fn(&[Query]) -> Vec<f32>) -> f64 {
+    if params.density_unit == DensityUnit::Absolute {
+        return 1.0;
+    }
+    let densities = densities(&reference_queries(foliage, params));
     let mut densities: Vec<f64> = densities.into_iter().map(f64::from).collect();
-    densities.sort_unstable_by(f64::total_cmp);
+    densities.par_sort_unstable_by(f64::total_cmp);
     median(&densities).max(1.0)
 }
 
@@ -131,8 +133,10 @@ pub(crate) struct Values {
     pub ambient: Vec<f32>,
     /// Per place, rest frame; `None` for wood; empty where it is not asked for.
     pub normals: Vec<Option<DVec3>>,
-    /// Radius of the sky's balls, where the sky was asked.
-    pub sky_radius: Option<f64>,
+    /// Lattice points per radius that the sky, where it was asked, and the density were read from; 0 where every
+    /// ball was summed.
+    pub sky_points: Option<f64>,
+    pub field_points: Option<f64>,
     /// Errors against the reference, where they were measured.
     pub errors: Vec<MeasuredError>,
 }
@@ -142,13 +146,14 @@ pub(crate) struct Values {
 /// # Errors
 /// [`BakeError::Parameter`] where normals come from a surface that cannot be meshed.
 pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: &Params) -> Result<Values, BakeError> {
+    let most = choose::most_points(places.queries.len());
     let mut values = Values::default();
     if params.asks_sky() {
         let plan = SkyPlan::new(plant, foliage, places, params);
-        let sky = Sky::new(foliage, params.sky_points());
-        values.sky_radius = Some(sky.radius());
-        let samples = sky.samples(&plan.queries);
-        values.errors = measure::sky(&sky, foliage, &plan.queries, &samples, params);
+        let sky = choose::sky(foliage, &plan.queries, params, most);
+        values.sky_points = Some(sky.points);
+        values.errors = sky.errors;
+        let samples = sky.samples;
         if params.wants_ambient() && params.ambient == AmbientTerm::Sky {
             values.ambient = sky_ambients(&plan.of_place, &samples, params);
         }
@@ -157,31 +162,23 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
             values.normals = realigned(plant, places, &plan.of_place, &toward, params);
         }
     }
-    let reference = params.asks_density().then(|| density_unit(foliage, params));
-    if let (true, Some(unit)) = (params.wants_normals() && params.normals == NormalMode::Surface, reference) {
+    if params.wants_normals() && params.normals == NormalMode::Surface {
         let (plan, field) = (SkyPlan::of_leaves(plant, foliage, places, params), hull::field(foliage));
+        let unit = density_unit(foliage, params, |queries| field.densities(queries));
         let surface = hull::surface(foliage, &field, unit, params)?;
         let toward = hull::directions(surface, &field, &plan.queries);
         values.normals = realigned(plant, places, &plan.of_place, &toward, params);
+        values.reference = Some(unit);
     }
-    if let (true, Some(unit)) = (params.wants_ambient() && params.ambient == AmbientTerm::Luft, reference) {
-        let field = Field::new(foliage.own(), foliage.radius);
-        let mut densities = field.densities(&places.queries);
-        let around = Field::new(&foliage.neighbors_near(&places.queries), foliage.radius);
-        around.add_to(&mut densities, &places.queries);
-        values.ambient = densities.par_iter().map(|&s| luft_ambient(f64::from(s), unit, params) as f32).collect();
-        values.errors.push(measure::luft(&[&field, &around], &places.queries, &values.ambient, unit, params));
+    if params.wants_ambient() && params.ambient == AmbientTerm::Luft {
+        let field = choose::field(foliage, &places.queries, params, most);
+        let ambient = |&density: &f32| luft_ambient(f64::from(density), field.unit, params) as f32;
+        values.ambient = field.densities.par_iter().map(ambient).collect();
+        values.reference = Some(field.unit);
+        values.field_points = Some(field.points);
+        values.errors.push(field.error);
     }
-    values.reference = reference;
     Ok(values)
-}
-
-/// The density in units of which threshold and darkest density are given.
-pub(crate) fn density_unit(foliage: &Foliage, params: &Params) -> f64 {
-    match params.density_unit {
-        DensityUnit::Median => reference_density(foliage, params),
-        DensityUnit::Absolute => 1.0,
-    }
 }
 
 /// k_a of a density (Luft07 eqs. 3 and 4), with threshold and darkest density in units of `reference`.

@@ -69,22 +69,16 @@ impl Field {
         self.evaluate::<false>(queries).iter().map(|s| s.density).collect()
     }
 
-    /// Adds the density at each query to what is there. A sum of two fields, each summed by itself, never
-    /// falls where balls are added to the second, and keeps its bits where they do not reach.
-    pub(crate) fn add_to(&self, densities: &mut [f32], queries: &[Query]) {
-        if !self.grid.is_empty() {
-            densities.iter_mut().zip(self.densities(queries)).for_each(|(sum, more)| *sum += more);
-        }
-    }
-
-    /// Density at one place in f64, over the same balls.
-    pub fn exact_density(&self, query: &Query) -> f64 {
+    /// Density at one place in f64, over the same balls, and how many balls were looked at.
+    pub(crate) fn exact(&self, query: &Query) -> (f64, usize) {
         self.grid.exact(query.position * self.inverse, query.skip)
     }
 
     fn evaluate<const GRADIENT: bool>(&self, queries: &[Query]) -> Vec<Sample> {
         let order = self.order(queries);
-        let blocks: Vec<&[(u64, u32)]> = order.chunk_by(|a, b| block_of(a.0) == block_of(b.0)).collect();
+        // Chunks, since all queries may lie in one block: where a radius is larger than the plant.
+        let blocks = order.chunk_by(|a, b| block_of(a.0) == block_of(b.0));
+        let blocks: Vec<&[(u64, u32)]> = blocks.flat_map(|block| block.chunks(TASK)).collect();
         let mut results = vec![Sample::default(); queries.len()];
         let parts: Vec<Vec<Sample>> = tasks(&blocks)
             .into_par_iter()

@@ -9,6 +9,7 @@ use foliar_bake::{Inputs, Placed};
 use foliar_numerics::CompensatedSum;
 use foliar_plant::Plant;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// The group of a query that leaves nothing out.
@@ -90,14 +91,15 @@ impl Foliage {
         &self.generators[..self.own]
     }
 
-    /// The balls of each neighbor.
+    /// The balls of the plant, then of each neighbor.
     pub fn stands(&self) -> impl Iterator<Item = &[Generator]> {
         let mut rest = &self.generators[self.own..];
-        self.stands.iter().map(move |&count| {
+        let neighbors = self.stands.iter().map(move |&count| {
             let (stand, others) = rest.split_at(count);
             rest = others;
             stand
-        })
+        });
+        std::iter::once(self.own()).chain(neighbors)
     }
 
     /// The neighbors' balls that reach into the box around these places.
@@ -182,13 +184,15 @@ pub(crate) fn foliage(inputs: &Inputs, params: &Params) -> Option<Foliage> {
 fn extents(plant: &Plant) -> Vec<f64> {
     let mut squares = vec![0.0f64; plant.leaves().len()];
     for (index, part) in plant.parts().iter().enumerate() {
-        for vertex in 0..part.positions.len() {
-            if let Some(leaf) = plant.leaf_of(index, vertex) {
-                let leaf = leaf as usize;
-                if !plant.leaves()[leaf].crown_volume {
-                    let arm = part.rest_position(vertex) - plant.leaves()[leaf].center.as_dvec3();
-                    squares[leaf] = squares[leaf].max(arm.length_squared());
-                }
+        let square = |vertex: usize| {
+            let leaf = plant.leaf_of(index, vertex).map(|leaf| &plant.leaves()[leaf as usize])?;
+            let arm = part.rest_position(vertex) - leaf.center.as_dvec3();
+            (!leaf.crown_volume).then_some(arm.length_squared())
+        };
+        let of_vertices: Vec<Option<f64>> = (0..part.positions.len()).into_par_iter().map(square).collect();
+        for (vertex, square) in of_vertices.into_iter().enumerate() {
+            if let (Some(leaf), Some(square)) = (plant.leaf_of(index, vertex), square) {
+                squares[leaf as usize] = squares[leaf as usize].max(square);
             }
         }
     }
@@ -218,7 +222,7 @@ fn automatic_radius(plant: &Plant, extents: &[f64]) -> f64 {
     let gyration = (sum(&|leaf| area(leaf) * square(leaf)) / total).sqrt();
     let effective = total * total / sum(&|leaf| area(leaf) * area(leaf));
     let mut sizes = extents.to_vec();
-    sizes.sort_unstable_by(f64::total_cmp);
+    sizes.par_sort_unstable_by(f64::total_cmp);
     let leaf_size = EDGE_PER_EXTENT * crate::fast::median(&sizes);
     let spacing = (RADIUS_PER_SPACING / libm::cbrt(effective)).min(1.0);
     (gyration * RADIUS_PER_GYRATION.max(spacing)).max(leaf_size.min(gyration * MOST_FOR_LEAF_SIZE))

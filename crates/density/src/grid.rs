@@ -3,6 +3,7 @@
 
 use crate::generators::Generator;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Rows per radius along y and z: finer rows fit the ball better, coarser ones are longer runs.
 const ROWS_PER_RADIUS: f64 = 3.0;
@@ -81,33 +82,28 @@ impl Grid {
     /// `inverse` is one over the radius of influence.
     pub fn new(generators: &[Generator], inverse: f64) -> Grid {
         let square = |p: DVec3| ((p.z * ROWS_PER_RADIUS).floor() as i32, (p.y * ROWS_PER_RADIUS).floor() as i32);
-        let mut balls: Vec<Stored> = generators
-            .iter()
-            .filter(|g| g.weight > 0.0)
-            .map(|g| Stored { position: g.position * inverse, weight: g.weight, group: g.group })
-            .collect();
-        balls.sort_unstable_by(|a, b| {
+        let stored = |g: &Generator| {
+            let position = g.position * inverse;
+            (square(position), Stored { position, weight: g.weight, group: g.group })
+        };
+        let mut balls: Vec<((i32, i32), Stored)> =
+            generators.par_iter().filter(|g| g.weight > 0.0).map(stored).collect();
+        balls.par_sort_unstable_by(|(a_square, a), (b_square, b)| {
             let (p, q) = (a.position, b.position);
-            square(p)
-                .cmp(&square(q))
+            a_square
+                .cmp(b_square)
                 .then(p.x.total_cmp(&q.x))
                 .then(p.y.total_cmp(&q.y))
                 .then(p.z.total_cmp(&q.z))
                 .then(a.weight.total_cmp(&b.weight))
         });
         let mut rows: Vec<Row> = Vec::new();
-        for (start, ball) in balls.iter().enumerate() {
-            let (z, y) = square(ball.position);
+        for (start, &((z, y), _)) in balls.iter().enumerate() {
             if rows.last().is_none_or(|row| (row.z, row.y) != (z, y)) {
                 rows.push(Row { z, y, start });
             }
         }
-        Grid { rows, balls }
-    }
-
-    /// Whether no ball has any weight.
-    pub fn is_empty(&self) -> bool {
-        self.balls.is_empty()
+        Grid { rows, balls: balls.into_iter().map(|(_, ball)| ball).collect() }
     }
 
     /// Collects what is within reach of the box `low..high` (radii), relative to `origin`.
@@ -125,16 +121,17 @@ impl Grid {
         });
     }
 
-    /// Density at a place (radii), in f64: what f32 sums are measured against.
-    pub fn exact(&self, place: DVec3, skip: u32) -> f64 {
-        let mut density = 0.0;
+    /// Density at a place (radii), in f64: what f32 sums are measured against. And the balls looked at.
+    pub fn exact(&self, place: DVec3, skip: u32) -> (f64, usize) {
+        let (mut density, mut looked_at) = (0.0, 0);
         self.each_run(place, place, |balls, _| {
+            looked_at += balls.len();
             for ball in balls.iter().filter(|ball| ball.group != skip) {
                 let inside = (1.0 - (place - ball.position).length_squared()).max(0.0);
                 density += f64::from(ball.weight) * inside * inside;
             }
         });
-        density
+        (density, looked_at)
     }
 
     /// Calls `each` with every run of balls within reach of a box, and the lower corner (y, z) of its row.

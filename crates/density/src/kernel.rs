@@ -53,6 +53,11 @@ impl Isa {
         }
         found
     }
+
+    /// The widest of them.
+    pub(crate) fn best() -> Isa {
+        Isa::available().last().copied().unwrap_or(Isa::Plain)
+    }
 }
 
 /// A path that this processor was seen to have: only [`Path::new`] makes one.

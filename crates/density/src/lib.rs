@@ -4,12 +4,17 @@
 //! high, little of the sky is seen (eq. 4).
 
 mod ambient;
+mod choose;
+mod chords;
+mod coarse;
+mod columns;
 mod depth;
 mod directions;
 pub mod fast;
 mod field;
 mod generators;
 mod grid;
+mod groups;
 mod hull;
 mod kernel;
 mod lattice;
@@ -28,6 +33,7 @@ mod tessellate;
 mod tests;
 
 pub use ambient::ambient_coefficient;
+pub use coarse::Coarse;
 pub use depth::crown_depth;
 pub use directions::{DIRECTIONS, sky_directions};
 pub use field::{Field, Query, Sample};
@@ -60,7 +66,7 @@ impl Baker for Density {
     }
 
     fn version(&self) -> u32 {
-        1
+        2
     }
 
     fn about(&self) -> &'static str {
@@ -86,7 +92,8 @@ impl Baker for Density {
             promise_steps,
         };
         vec![
-            rung("k_a", json!({"ambient": "luft", "channels": "ambient"}), EXACT_STEPS),
+            rung("k_a-exact", json!({"ambient": "luft", "channels": "ambient", "quality": EXACT_STEPS}), EXACT_STEPS),
+            rung("k_a", json!({"ambient": "luft", "channels": "ambient"}), 1.0),
             rung("sky-4", json!({"ambient": "sky", "quality": 4.0}), 4.0),
             rung("sky", json!({}), 1.0),
             rung("sky-0.25", json!({"quality": 0.25}), 0.25),

@@ -1,11 +1,10 @@
-//! Errors of a bake against its reference, over a fixed sample of places, for the record.
+//! Errors of a bake against its reference, over a fixed sample of places: for the record, and to choose by.
 
 use crate::fast::luft_ambient;
-use crate::field::{Field, Query};
+use crate::field::Query;
 use crate::generators::Foliage;
 use crate::medium::SkySample;
 use crate::params::{AmbientTerm, NormalMode, Params};
-use crate::sky::Sky;
 use crate::{directions::DIRECTIONS, reference};
 use foliar_numerics::ErrorStats;
 use foliar_schema::{MeasuredError, channel, names};
@@ -13,44 +12,31 @@ use rayon::prelude::*;
 
 /// Places of a sample.
 const PLACES: usize = 4096;
-/// Most chords summed to measure the sky; fewer places are measured where the crown has many balls.
-const MOST_CHORDS: usize = 1 << 23;
+/// Most chords that are summed in f64.
+const MOST_CHORDS: usize = 1 << 22;
 /// Fewest places of a sample.
 const FEWEST: usize = 8;
 
-/// Indices of up to `most` of `count` places, evenly spread over the list.
-fn sample(count: usize, most: usize) -> Vec<usize> {
+/// Indices of up to 4,096 of `count` places, evenly spread over the list.
+pub(crate) fn sample(count: usize) -> Vec<usize> {
+    spread(count, PLACES)
+}
+
+fn spread(count: usize, most: usize) -> Vec<usize> {
     let places = most.min(count);
     (0..places).map(|i| i * count / places).collect()
 }
 
-/// Error of k_a (Luft07 eq. 4), the density a sum of `fields`, against f64 sums.
-pub(crate) fn luft(
-    fields: &[&Field],
-    queries: &[Query],
-    ambient: &[f32],
-    reference: f64,
-    params: &Params,
-) -> MeasuredError {
-    let density = |at: usize| fields.iter().map(|field| field.exact_density(&queries[at])).sum();
-    let error = |&at: &usize| f64::from(ambient[at]) - luft_ambient(density(at), reference, params);
-    let errors: Vec<f64> = sample(queries.len(), PLACES).par_iter().map(error).collect();
-    measured(names::AMBIENT, errors)
+/// Error of k_a (Luft07 eq. 4) at places of these densities.
+pub(crate) fn luft(fast: &[f32], exact: &[f64], reference: f64, params: &Params) -> MeasuredError {
+    let ambient = |density: f64| luft_ambient(density, reference, params);
+    let errors = fast.iter().zip(exact).map(|(&fast, &exact)| ambient(f64::from(fast)) - ambient(exact));
+    measured(names::AMBIENT, errors.collect())
 }
 
-/// Errors of the sky's ambient term and directions against the chords of all balls.
-pub(crate) fn sky(
-    sky: &Sky,
-    foliage: &Foliage,
-    queries: &[Query],
-    samples: &[SkySample],
-    params: &Params,
-) -> Vec<MeasuredError> {
-    let most = (MOST_CHORDS / (DIRECTIONS * foliage.generators.len().max(1))).clamp(FEWEST, PLACES);
-    let exact = |&at: &usize| reference::sky(&foliage.generators, sky.radius(), foliage.mean_area, &queries[at]);
-    let places = sample(queries.len(), most);
-    let exact: Vec<SkySample> = places.par_iter().map(exact).collect();
-    let pairs = || places.iter().map(|&at| &samples[at]).zip(&exact);
+/// Errors of the sky's ambient term and directions, those of the two that `params` asks for.
+pub(crate) fn sky(fast: &[SkySample], exact: &[SkySample], params: &Params) -> Vec<MeasuredError> {
+    let pairs = || fast.iter().zip(exact);
     let lift = 1.0 - params.darkest_ambient;
     let mut errors = Vec::new();
     if params.ambient == AmbientTerm::Sky && params.wants_ambient() {
@@ -63,6 +49,27 @@ pub(crate) fn sky(
         errors.push(measured(names::SOFT_NORMAL, angles.collect()));
     }
     errors
+}
+
+/// Errors of chords summed in f32 against the reference's f64: at fewer places where the crown has many balls,
+/// since nothing is chosen by them.
+pub(crate) fn chords(
+    foliage: &Foliage,
+    queries: &[Query],
+    samples: &[SkySample],
+    params: &Params,
+) -> Vec<MeasuredError> {
+    let most = (MOST_CHORDS / (DIRECTIONS * foliage.generators.len().max(1))).clamp(FEWEST, PLACES);
+    let places = spread(queries.len(), most);
+    let exact = |&at: &usize| reference::sky(&foliage.generators, foliage.radius, foliage.mean_area, &queries[at]);
+    let exact: Vec<SkySample> = places.par_iter().map(exact).collect();
+    let fast: Vec<SkySample> = places.iter().map(|&at| samples[at]).collect();
+    sky(&fast, &exact, params)
+}
+
+/// The largest of several errors, visible steps.
+pub(crate) fn worst(errors: &[MeasuredError]) -> f64 {
+    errors.iter().map(|error| error.rms_steps).fold(0.0, f64::max)
 }
 
 fn measured(name: &str, errors: Vec<f64>) -> MeasuredError {

@@ -18,17 +18,23 @@ pub fn extinction(mean_area: f64, radius: f64) -> f64 {
     PROJECTION * mean_area / (BALL_INTEGRAL * radius * radius)
 }
 
-/// Integral of (1 - r^2)^2 along the ray from `from` toward the unit vector `toward`, for a ball of radius
-/// 1 about the origin: a polynomial of degree 5 between entry and exit.
-pub fn chord(from: DVec3, toward: DVec3) -> f64 {
+/// Integrals of (1 - r^2)^2 along the rays from `from` toward the unit vector `toward` and away from it, for
+/// a ball of radius 1 about the origin: a polynomial of degree 5 between entry and exit.
+pub fn chords(from: DVec3, toward: DVec3) -> [f64; 2] {
     let along = from.dot(toward);
     let inside = 1.0 - (from.length_squared() - along * along);
     if inside <= 0.0 {
-        return 0.0;
+        return [0.0; 2];
     }
     let half = inside.sqrt();
     let primitive = |t: f64| t * (inside * inside + t * t * (t * t / 5.0 - inside * (2.0 / 3.0)));
-    primitive(half) - primitive(along.clamp(-half, half))
+    let (whole, part) = (primitive(half), primitive(along.clamp(-half, half)));
+    [whole - part, whole + part]
+}
+
+/// The first of [`chords`].
+pub fn chord(from: DVec3, toward: DVec3) -> f64 {
+    chords(from, toward)[0]
 }
 
 /// What a place sees of the sky.

@@ -5,8 +5,9 @@ use crate::generators::Foliage;
 use crate::params::Params;
 use foliar_bake::{Array, AttributeKey, Baked};
 use foliar_plant::Plant;
-use foliar_schema::{Finding, code, names};
-use glam::Vec3;
+use foliar_schema::{Finding, MeasuredError, code, names};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 /// A plant without leaves: nothing to write, and why.
@@ -24,6 +25,7 @@ pub(crate) fn baked(plant: &Plant, foliage: &Foliage, places: &Places, values: &
         resolved: resolved(params, Some(foliage.radius)),
         facts: facts(foliage, values, params),
         errors: values.errors.clone(),
+        findings: missed(values, params),
         ..Baked::default()
     };
     for (n, &(index, start)) in places.parts.iter().enumerate() {
@@ -34,12 +36,28 @@ pub(crate) fn baked(plant: &Plant, foliage: &Foliage, places: &Places, values: &
             baked.attributes.insert(key(names::AMBIENT), Array::scalars(ambient.to_vec()));
         }
         let normals = values.normals.get(start..end).unwrap_or_default();
-        let normals: Vec<Vec3> = normals.iter().flatten().map(|n| part.normal_to_mesh(*n).as_vec3()).collect();
+        let mesh_normal = |normal: &Option<DVec3>| normal.map(|n| part.normal_to_mesh(n).as_vec3());
+        let normals: Vec<Vec3> = normals.par_iter().filter_map(mesh_normal).collect();
         if normals.len() == end - start && end > start {
             baked.attributes.insert(key(names::SOFT_NORMAL), Array::vectors(&normals));
         }
     }
     baked
+}
+
+/// What was promised and not kept: everything was summed ball by ball then, and f32 goes no further.
+fn missed(values: &Values, params: &Params) -> Vec<Finding> {
+    let missed = values.errors.iter().filter(|error| error.rms_steps > params.quality());
+    let finding = |error: &MeasuredError| {
+        let (steps, promise) = (error.rms_steps, params.quality());
+        let message = format!(
+            "density: {} is off by {steps:.2e} visible steps rms, quality {promise} was asked for: every ball was \
+             summed already, in f32; ask for quality {steps:.1e} or more",
+            error.channel
+        );
+        Finding::new(&code::QUALITY_MISSED, message)
+    };
+    missed.map(finding).collect()
 }
 
 fn resolved(params: &Params, radius: Option<f64>) -> Map<String, Value> {
@@ -66,8 +84,11 @@ fn facts(foliage: &Foliage, values: &Values, params: &Params) -> Map<String, Val
         fact("darkestDensity", json!(params.darkest_density * reference));
         fact("exponent", json!(params.exponent));
     }
-    if let Some(radius) = values.sky_radius {
-        fact("skyRadiusM", json!(radius));
+    if let Some(points) = values.field_points {
+        fact("fieldPointsPerRadius", json!(points));
+    }
+    if let Some(points) = values.sky_points {
+        fact("skyPointsPerRadius", json!(points));
         fact("skyDirections", json!(crate::directions::DIRECTIONS));
     }
     facts

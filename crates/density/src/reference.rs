@@ -9,7 +9,6 @@ use crate::hull;
 use crate::medium::{SkySample, chord, extinction, see};
 use crate::normals::realigned;
 use crate::params::{AmbientTerm, DensityUnit, NormalMode, Params, SelfLeaf};
-use crate::sky::Sky;
 use crate::surface::{DensityField, Probe};
 use foliar_bake::BakeError;
 use foliar_plant::Plant;
@@ -82,9 +81,8 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
     let mut values = Values::default();
     if params.asks_sky() {
         let plan = SkyPlan::new(plant, foliage, places, params);
-        let radius = Sky::new(foliage, params.sky_points()).radius();
-        let samples: Vec<SkySample> =
-            plan.queries.par_iter().map(|q| sky(&foliage.generators, radius, foliage.mean_area, q)).collect();
+        let sky = |query: &Query| sky(&foliage.generators, foliage.radius, foliage.mean_area, query);
+        let samples: Vec<SkySample> = plan.queries.par_iter().map(sky).collect();
         if params.wants_ambient() && params.ambient == AmbientTerm::Sky {
             values.ambient = sky_ambients(&plan.of_place, &samples, params);
         }
@@ -92,7 +90,6 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
             let toward: Vec<DVec3> = samples.iter().map(|sample| sample.direction).collect();
             values.normals = realigned(plant, places, &plan.of_place, &toward, params);
         }
-        values.sky_radius = Some(radius);
     }
     if params.asks_density() {
         let unit = density_unit(foliage, params);

@@ -1,124 +1,119 @@
 //! What each place sees of the sky, through the foliage taken for an absorbing medium: density on a
-//! lattice, one sweep of it for each direction, lookups by interpolation.
+//! lattice, one sweep of it for each axis of the sky, lookups by interpolation; or the chords of all balls.
 //!
 //! Evaluated once for each leaf, so that a leaf's corners agree: realigned normals that point outward all
 //! round a crown must break somewhere, and this way never inside a leaf.
 
-use crate::directions::sky_directions;
+use crate::chords;
+use crate::columns::Columns;
+use crate::directions::{AXES, DIRECTIONS, sky_axes, sky_directions};
 use crate::field::Query;
 use crate::generators::{Foliage, Generator};
+use crate::groups::Groups;
+use crate::kernel::Isa;
 use crate::lattice::Lattice;
-use crate::medium::{SkySample, chord, extinction, see};
+use crate::medium::{SkySample, chords as both_chords, extinction, see};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Most lattice points: 4 bytes each, once and once for each thread.
-const MOST_POINTS: usize = 1 << 20;
-/// Up to so many pairs of balls and queries, chords are summed one by one: exact, and no slower.
-const MOST_PAIRS: usize = 400_000;
+/// Lattice points that may be swept at once, 4 bytes each.
+const POINTS_AT_ONCE: usize = 1 << 22;
 
 /// A crown and its neighbors as absorbing media, ready to be asked.
 #[derive(Debug)]
-pub struct Sky {
-    crown: Medium,
-    /// Each with a lattice of its own: how finely the crown is seen does not depend on what stands around it.
-    neighbors: Vec<Medium>,
-    /// Optical depth of one unit of the crown's chords.
-    scale: f64,
-}
-
-impl Sky {
-    /// Prepares a crown. `points_per_radius` of the lattice set the error.
-    pub fn new(foliage: &Foliage, points_per_radius: f64) -> Sky {
-        let medium = |balls: &[Generator]| Medium::new(balls, foliage.radius, points_per_radius);
-        let (crown, neighbors) = (medium(foliage.own()), foliage.stands().map(medium).collect());
-        let scale = extinction(foliage.mean_area, crown.lattice.radius);
-        Sky { crown, neighbors, scale }
-    }
-
-    /// Radius of the balls of the crown's medium, meters: the radius of influence, or more where the lattice
-    /// would take too much memory.
-    pub fn radius(&self) -> f64 {
-        self.crown.lattice.radius
-    }
-
-    /// The sky at each query.
-    pub fn samples(&self, queries: &[Query]) -> Vec<SkySample> {
-        let directions = sky_directions();
-        let mut depths = vec![vec![0.0f32; queries.len()]; directions.len()];
-        self.crown.add_depths(&directions, queries, 1.0, &mut depths);
-        for neighbor in &self.neighbors {
-            // Extinction goes with one over the square of the radius.
-            let share = (self.radius() / neighbor.lattice.radius).powi(2) as f32;
-            neighbor.add_depths(&directions, queries, share, &mut depths);
-        }
-        let sample = |(index, query): (usize, &Query)| {
-            let depths = std::array::from_fn(|d| self.scale * f64::from(depths[d][index]));
-            see(&depths, &directions, query.position)
-        };
-        queries.par_iter().enumerate().map(sample).collect()
-    }
+pub struct Sky<'a> {
+    foliage: &'a Foliage,
+    /// One for each plant: how finely the crown is seen does not depend on what stands around it.
+    media: Vec<Medium<'a>>,
+    isa: Isa,
 }
 
 /// The balls of one plant.
 #[derive(Debug)]
-struct Medium {
-    lattice: Lattice,
-    /// In radii of the medium, sorted by group.
-    balls: Vec<Generator>,
+struct Medium<'a> {
+    balls: &'a [Generator],
+    groups: Groups,
+    /// `None` where chords are summed.
+    lattice: Option<(Lattice, Vec<f32>)>,
 }
 
-impl Medium {
-    fn new(balls: &[Generator], radius: f64, points_per_radius: f64) -> Medium {
-        let lattice = Lattice::around(balls, radius, points_per_radius, MOST_POINTS);
-        let mut balls = balls.to_vec();
-        balls.iter_mut().for_each(|ball| ball.position /= lattice.radius);
-        balls.sort_by_key(|ball| ball.group);
-        Medium { lattice, balls }
-    }
-
-    /// Adds the depths toward each direction, times `share`, to what is there.
-    fn add_depths(&self, directions: &[DVec3], queries: &[Query], share: f32, depths: &mut [Vec<f32>]) {
-        let add = |all: &mut Vec<f32>, more: Vec<f32>| {
-            all.iter_mut().zip(more).for_each(|(sum, depth)| *sum += share * depth);
+impl<'a> Sky<'a> {
+    /// Prepares lattices of `points_per_radius`, which set the error; coarser where one would have more than
+    /// `most` points.
+    pub fn on_lattices(foliage: &'a Foliage, points_per_radius: f64, most: usize) -> Sky<'a> {
+        let isa = Isa::best();
+        let medium = |balls: &'a [Generator]| {
+            let lattice = Lattice::around(balls, foliage.radius, points_per_radius, most);
+            let density = lattice.splat(balls, foliage.radius, isa);
+            Medium { balls, groups: Groups::new(balls), lattice: Some((lattice, density)) }
         };
-        let pairs = depths.par_iter_mut().zip(directions);
-        if self.balls.len().saturating_mul(queries.len()) <= MOST_PAIRS {
-            pairs.for_each(|(all, toward)| add(all, self.summed_depths(queries, *toward)));
-        } else {
-            let density = self.lattice.splat(&self.balls);
-            let own: Vec<&[Generator]> = queries.par_iter().map(|query| self.group(query.skip)).collect();
-            pairs.for_each(|(all, toward)| add(all, self.swept_depths(&density, queries, &own, *toward)));
-        }
+        Sky { foliage, media: foliage.stands().map(medium).collect(), isa }
     }
 
-    /// Depths toward one direction, before the extinction's scale: chords of all balls.
-    fn summed_depths(&self, queries: &[Query], toward: DVec3) -> Vec<f32> {
-        let depth = |query: &Query| {
-            let place = query.position / self.lattice.radius;
-            let others = self.balls.iter().filter(|ball| ball.group != query.skip);
-            others.map(|ball| f64::from(ball.weight) * chord(place - ball.position, toward)).sum::<f64>() as f32
+    /// Exact up to f32 rounding: all chords.
+    pub fn by_chords(foliage: &'a Foliage) -> Sky<'a> {
+        let medium = |balls: &'a [Generator]| Medium { balls, groups: Groups::default(), lattice: None };
+        Sky { foliage, media: foliage.stands().map(medium).collect(), isa: Isa::best() }
+    }
+
+    /// The same sky on chosen instructions: same bits.
+    pub fn on(mut self, isa: Isa) -> Self {
+        self.isa = isa;
+        self
+    }
+
+    /// The sky at each query.
+    pub fn samples(&self, queries: &[Query]) -> Vec<SkySample> {
+        self.counted_samples(queries).0
+    }
+
+    /// The same, and how many pairs of ball and query were looked at for chords.
+    pub(crate) fn counted_samples(&self, queries: &[Query]) -> (Vec<SkySample>, u64) {
+        let (axes, directions) = (sky_axes(), sky_directions());
+        let scale = extinction(self.foliage.mean_area, self.foliage.radius);
+        let depths: Vec<chords::Depths> = self.media.iter().map(|m| m.depths(self, queries, &axes)).collect();
+        let sample = |(index, query): (usize, &Query)| {
+            let mut sums = [0.0f64; DIRECTIONS];
+            for medium in &depths {
+                for (axis, depths) in medium.axes.iter().enumerate() {
+                    sums[axis] += scale * f64::from(depths[index][0]);
+                    sums[axis + AXES] += scale * f64::from(depths[index][1]);
+                }
+            }
+            see(&sums, &directions, query.position)
         };
-        queries.iter().map(depth).collect()
+        (queries.par_iter().enumerate().map(sample).collect(), depths.iter().map(|depths| depths.pairs).sum())
     }
+}
 
-    /// The same from a sweep of the lattice, less the chords of `own`, the balls that each query leaves out.
-    fn swept_depths(&self, density: &[f32], queries: &[Query], own: &[&[Generator]], toward: DVec3) -> Vec<f32> {
-        let columns = self.lattice.columns(toward);
-        let swept = self.lattice.sweep(density, &columns);
-        let depth = |(query, own): (&Query, &&[Generator])| {
-            let place = query.position / self.lattice.radius;
-            let seen = self.lattice.value_toward(&swept, &columns, place, toward);
-            let own: f64 = own.iter().map(|b| f64::from(b.weight) * chord(place - b.position, toward)).sum();
-            (f64::from(seen) - own).max(0.0) as f32
+impl Medium<'_> {
+    /// Depths in radii toward both ends of each axis, without the balls that each query leaves out.
+    fn depths(&self, sky: &Sky, queries: &[Query], axes: &[DVec3; AXES]) -> chords::Depths {
+        let radius = sky.foliage.radius;
+        let Some((lattice, density)) = &self.lattice else {
+            return chords::depths(self.balls, radius, queries, axes, sky.isa);
         };
-        queries.iter().zip(own).map(depth).collect()
+        let own: Vec<&[Generator]> = self.groups.of_each(queries);
+        let along = |toward: &DVec3| {
+            let columns = Columns::new(lattice, density, *toward);
+            let depths = |(query, own): (&Query, &&[Generator])| {
+                less_own(columns.depths(query.position / radius), query, own, radius, *toward)
+            };
+            queries.par_iter().zip(&own).with_min_len(1024).map(depths).collect()
+        };
+        // Columns are wider than the lattice: about three times as many points.
+        let at_once = (POINTS_AT_ONCE / (3 * lattice.points())).clamp(1, AXES);
+        let swept = axes.chunks(at_once).flat_map(|axes| axes.par_iter().map(along).collect::<Vec<_>>());
+        chords::Depths { axes: swept.collect(), pairs: 0 }
     }
+}
 
-    /// The balls of a group.
-    fn group(&self, group: u32) -> &[Generator] {
-        let start = self.balls.partition_point(|ball| ball.group < group);
-        let count = self.balls[start..].partition_point(|ball| ball.group == group);
-        &self.balls[start..start + count]
+/// Depths less the chords of a query's own balls.
+fn less_own(depths: [f32; 2], query: &Query, own: &[Generator], radius: f64, toward: DVec3) -> [f32; 2] {
+    let mut depths = depths.map(f64::from);
+    for ball in own {
+        let chords = both_chords((query.position - ball.position) / radius, toward);
+        depths = [0, 1].map(|end| depths[end] - f64::from(ball.weight) * chords[end]);
     }
+    depths.map(|depth| depth.max(0.0) as f32)
 }

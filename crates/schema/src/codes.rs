@@ -48,6 +48,7 @@ codes! {
     NEIGHBOR_COINCIDES = "NEIGHBOR-COINCIDES", Warning, "A neighbor is the plant itself, or another neighbor, at the same place: its foliage counts twice; move it or take it out.";
     PACK_BUDGET = "PACK-BUDGET", Warning, "Packing adds more bytes per vertex than scene.budget.bytes_per_vertex allows: raise it, or bake fewer channels.";
     PACK_LEFT_OUT = "PACK-LEFT-OUT", Warning, "Attributes of the base that the engine cannot take beside foliar's were left out of the packed file.";
+    QUALITY_MISSED = "QUALITY-MISSED", Warning, "A channel's measured error is above the `quality` that was asked for: ask for less, or take the finding as the error.";
     RECORD_UNKNOWN = "RECORD-UNKNOWN", Note, "A record of an unknown room or a newer contract was kept as it is.";
     ROLE_MIXED = "ROLE-MIXED", Warning, "One part holds trunk and crown without a hint: split it in the modeller, or name its role.";
     ROLE_UNMATCHED = "ROLE-UNMATCHED", Warning, "A pattern of section `roles` matches no part: correct it, or take it out.";

@@ -7,6 +7,7 @@
 
 mod bins;
 mod blocks;
+mod dense;
 mod error;
 
 mod march;
@@ -20,6 +21,7 @@ mod tests;
 
 use crate::{Field, Generator, NO_GROUP, Query};
 use blocks::{Lattice, TooMuch, touched};
+pub(crate) use dense::dense;
 pub use error::SurfaceError;
 use glam::{DVec3, Vec3};
 use march::{Blocks, Crossing, Guess, March};

@@ -2,9 +2,11 @@
 
 mod extremes;
 mod field;
+mod golden;
 mod laws;
 mod modes;
 mod neighbors;
 mod oracle;
 mod plants;
+mod quality;
 mod speed;

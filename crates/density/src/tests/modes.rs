@@ -138,7 +138,13 @@ fn primitives_count_triangles_and_leaves_do_not() {
     let densities = |plant: &Plant, generators| {
         let params = Params { generators, radius_m: Some(0.4), ..Params::default() };
         let foliage = Foliage::new(plant, &[], &params);
-        (foliage.generators.len(), fast::reference_density(&foliage, &params), foliage.mean_area)
+        (
+            foliage.generators.len(),
+            fast::density_unit(&foliage, &params, |queries| {
+                crate::Field::new(foliage.own(), foliage.radius).densities(queries)
+            }),
+            foliage.mean_area,
+        )
     };
     for kind in [GeneratorKind::Leaf, GeneratorKind::LeafCount] {
         let (one, other) = (densities(&coarse, kind), densities(&fine, kind));

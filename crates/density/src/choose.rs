@@ -1,0 +1,199 @@
+//! How finely the density is computed: the cheapest setting, by a cost model, that keeps the promise of
+//! `quality`, as measured over a fixed sample of places. No clock has a say: the same plant gets the same setting
+//! on every machine.
+
+use crate::coarse::Coarse;
+use crate::directions::AXES;
+use crate::fast::density_unit;
+use crate::field::{Field, Query};
+use crate::generators::Foliage;
+use crate::lattice::Lattice;
+use crate::measure;
+use crate::medium::SkySample;
+use crate::params::Params;
+use crate::sky::Sky;
+use foliar_schema::MeasuredError;
+use rayon::prelude::*;
+
+/// Lattice points per radius that are tried, coarsest first.
+const RUNGS: [f64; 9] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0];
+/// Most lattice points, and fewest of these: a large plant may have as many as it has vertices.
+const FEWEST_MOST_POINTS: usize = 1 << 20;
+
+/// What things cost, in nanoseconds of one common processor: only their ratios count.
+mod cost {
+    /// A pair of ball and place, for its chords.
+    pub const CHORD: f64 = 1.0;
+    /// A ball, for each axis, whatever it meets.
+    pub const DISK: f64 = 60.0;
+    /// A place, for each axis swept.
+    pub const LOOK: f64 = 16.0;
+    /// A lattice point, for each axis swept.
+    pub const SWEEP: f64 = 9.0;
+    /// A lattice point that is filled.
+    pub const POINT: f64 = 4.0;
+    /// A ball that is put onto a lattice.
+    pub const SPLAT: f64 = 300.0;
+    /// A place, for the density alone: of a lattice, and exact.
+    pub const SPLINE: f64 = 40.0;
+    pub const PLACE: f64 = 150.0;
+    /// A pair of ball and place, for the density.
+    pub const PAIR: f64 = 0.4;
+}
+
+/// The rungs worth a try, by how errors fall with the points per radius: to the 2.5th power of them for the
+/// density, and about the second for the sky.
+struct Climb {
+    power: f64,
+    /// Points per radius from which the promise may be kept.
+    least: f64,
+}
+
+impl Climb {
+    /// Starts from the error that trees of 40,000 leaves and more have at two points per radius, in steps.
+    fn new(power: f64, at_two: f64, quality: f64) -> Climb {
+        let mut climb = Climb { power, least: 0.0 };
+        climb.missed(2.0, at_two / quality);
+        climb
+    }
+
+    /// Whether a rung may keep the promise, after what was missed.
+    fn may_keep(&self, points: f64) -> bool {
+        points >= self.least
+    }
+
+    /// A rung missed by a factor. A little less than the law says: what is measured decides.
+    fn missed(&mut self, points: f64, factor: f64) {
+        const CAUTION: f64 = 0.95;
+        self.least = CAUTION * points * libm::pow(factor, 1.0 / self.power);
+    }
+}
+
+/// Most points of a lattice for so many places.
+pub(crate) fn most_points(places: usize) -> usize {
+    places.max(FEWEST_MOST_POINTS)
+}
+
+/// The sky, its errors, and the lattice points per radius that keep the promise; 0 where chords were summed.
+pub(crate) struct ChosenSky {
+    pub samples: Vec<SkySample>,
+    pub errors: Vec<MeasuredError>,
+    pub points: f64,
+}
+
+/// The sky at all queries.
+pub(crate) fn sky(foliage: &Foliage, queries: &[Query], params: &Params, most: usize) -> ChosenSky {
+    let chords = Sky::by_chords(foliage);
+    let places = of(queries, &measure::sample(queries.len()));
+    let (exact, pairs) = chords.counted_samples(&places);
+    if places.len() < queries.len() {
+        let scale = queries.len() as f64 / places.len() as f64;
+        let balls = foliage.generators.len() as f64;
+        let dear = pairs as f64 * scale * cost::CHORD + balls * AXES as f64 * cost::DISK;
+        if let Some(chosen) = swept_sky(foliage, queries, params, most, (&places, &exact, dear)) {
+            return chosen;
+        }
+    }
+    let samples = if places.len() < queries.len() { chords.samples(queries) } else { exact };
+    let errors = measure::chords(foliage, queries, &samples, params);
+    ChosenSky { samples, errors, points: 0.0 }
+}
+
+/// The sky from the coarsest lattices that keep the promise, as long as they cost less than `dear`.
+fn swept_sky(
+    foliage: &Foliage,
+    queries: &[Query],
+    params: &Params,
+    most: usize,
+    (places, exact, dear): (&[Query], &[SkySample], f64),
+) -> Option<ChosenSky> {
+    let mut climb = Climb::new(2.0, 1.5, params.quality());
+    for points in RUNGS {
+        let lattice = Lattice::around(foliage.own(), foliage.radius, points, most);
+        let sweeps = AXES as f64 * (queries.len() as f64 * cost::LOOK + lattice.points() as f64 * cost::SWEEP);
+        if lattice.is_coarser_than(points) || sweeps + foliage.generators.len() as f64 * cost::SPLAT >= dear {
+            return None;
+        }
+        if climb.may_keep(points) {
+            let sky = Sky::on_lattices(foliage, points, most);
+            let errors = measure::sky(&sky.samples(places), exact, params);
+            let factor = measure::worst(&errors) / params.quality();
+            if factor <= 1.0 {
+                return Some(ChosenSky { samples: sky.samples(queries), errors, points });
+            }
+            climb.missed(points, factor);
+        }
+    }
+    None
+}
+
+/// Densities, the unit they are judged in, the error of k_a, and the lattice points per radius that keep the
+/// promise; 0 where the field is exact.
+pub(crate) struct ChosenField {
+    pub densities: Vec<f32>,
+    pub unit: f64,
+    pub error: MeasuredError,
+    pub points: f64,
+}
+
+/// The density at all queries, for k_a. The plant's own balls alone decide how it is computed, so that neighbors
+/// change neither its unit nor, where they do not reach, any bit; theirs are summed one by one.
+pub(crate) fn field(foliage: &Foliage, queries: &[Query], params: &Params, most: usize) -> ChosenField {
+    let field = Field::new(foliage.own(), foliage.radius);
+    let at = measure::sample(queries.len());
+    let places = of(queries, &at);
+    let (exact, pairs): (Vec<f64>, Vec<usize>) = places.par_iter().map(|query| field.exact(query)).unzip();
+    let dear = cost::PLACE + cost::PAIR * pairs.iter().sum::<usize>() as f64 / places.len().max(1) as f64;
+    let splined = splined_field(foliage, queries, params, most, (&places, &exact, dear));
+    let mut chosen = splined.unwrap_or_else(|| {
+        let unit = density_unit(foliage, params, |queries| field.densities(queries));
+        let densities = field.densities(queries);
+        let fast: Vec<f32> = at.iter().map(|&at| densities[at]).collect();
+        let error = measure::luft(&fast, &exact, unit, params);
+        ChosenField { densities, unit, error, points: 0.0 }
+    });
+    let near = foliage.neighbors_near(queries);
+    if !near.is_empty() {
+        let around = Field::new(&near, foliage.radius);
+        chosen.densities.iter_mut().zip(around.densities(queries)).for_each(|(sum, more)| *sum += more);
+        let exact: Vec<f64> = places.par_iter().zip(&exact).map(|(query, own)| own + around.exact(query).0).collect();
+        let fast: Vec<f32> = at.iter().map(|&at| chosen.densities[at]).collect();
+        chosen.error = measure::luft(&fast, &exact, chosen.unit, params);
+    }
+    chosen
+}
+
+/// The density of the plant's own balls from the coarsest lattice that keeps the promise, as long as it costs
+/// less than `dear` a place.
+fn splined_field(
+    foliage: &Foliage,
+    queries: &[Query],
+    params: &Params,
+    most: usize,
+    (places, exact, dear): (&[Query], &[f64], f64),
+) -> Option<ChosenField> {
+    let asked = (queries.len() + foliage.own) as f64;
+    let mut climb = Climb::new(2.5, 4.0, params.quality());
+    for points in RUNGS {
+        let lattice = Lattice::around(foliage.own(), foliage.radius, points, most);
+        let splat = foliage.own as f64 * cost::SPLAT + lattice.points() as f64 * cost::POINT;
+        if lattice.is_coarser_than(points) || asked * cost::SPLINE + splat >= asked * dear {
+            return None;
+        }
+        if climb.may_keep(points) {
+            let coarse = Coarse::new(foliage.own(), foliage.radius, points, most);
+            let unit = density_unit(foliage, params, |queries| coarse.densities(queries));
+            let error = measure::luft(&coarse.densities(places), exact, unit, params);
+            let factor = error.rms_steps / params.quality();
+            if factor <= 1.0 {
+                return Some(ChosenField { densities: coarse.densities(queries), unit, error, points });
+            }
+            climb.missed(points, factor);
+        }
+    }
+    None
+}
+
+fn of(queries: &[Query], at: &[usize]) -> Vec<Query> {
+    at.iter().map(|&at| queries[at]).collect()
+}
