@@ -40,7 +40,9 @@ pub(crate) fn surface(
 /// # Errors
 /// As [`surface`].
 pub(crate) fn around(plant: &Plant, foliage: &Foliage, params: &Params) -> Result<Hull, BakeError> {
-    let found = surface(foliage, &field(foliage), density_unit(foliage, params), params)?;
+    let field = field(foliage);
+    let unit = density_unit(foliage, params, |queries| field.densities(queries));
+    let found = surface(foliage, &field, unit, params)?;
     let Surface { origin, positions, normals, triangles, .. } = found.without_cavities();
     Ok(Hull { origin: plant.center() + origin, positions, normals, triangles })
 }
