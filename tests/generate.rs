@@ -16,9 +16,25 @@ fn generated(kind: &str) -> Vec<(String, String)> {
 #[test]
 fn each_program_has_its_page_its_help_and_its_completions() {
     for (kind, names) in [
-        ("man", ["foliar-bake.1", "foliar-density.1", "foliar-import.1", "foliar-view.1", "foliar.1"]),
-        ("help", ["foliar-bake.txt", "foliar-density.txt", "foliar-import.txt", "foliar-view.txt", "foliar.txt"]),
-        ("completions", ["foliar.bash", "foliar-density.fish", "_foliar", "_foliar-view", "foliar-import.bash"]),
+        (
+            "man",
+            ["foliar-bake.1", "foliar-density.1", "foliar-import.1", "foliar-noise.1", "foliar-view.1", "foliar.1"],
+        ),
+        (
+            "help",
+            [
+                "foliar-bake.txt",
+                "foliar-density.txt",
+                "foliar-import.txt",
+                "foliar-noise.txt",
+                "foliar-view.txt",
+                "foliar.txt",
+            ],
+        ),
+        (
+            "completions",
+            ["foliar.bash", "foliar-density.fish", "_foliar", "_foliar-noise", "_foliar-view", "foliar-import.bash"],
+        ),
     ] {
         let files = generated(kind);
         for name in names {

@@ -1,6 +1,6 @@
 //! The trait of all rooms.
 
-use crate::{Array, AttributeKey, BakeError, ColumnKey, Placed};
+use crate::{Array, AttributeKey, BakeError, ColumnKey, FloatRaster, Placed};
 use foliar_plant::{Plant, Raster};
 use foliar_schema::Scene;
 use glam::{DVec3, Vec3};
@@ -28,6 +28,13 @@ pub struct Needs {
     pub plant: bool,
     /// Names of maps.
     pub maps: &'static [&'static str],
+}
+
+impl Needs {
+    /// Whether it bakes from nothing: what it makes belongs to a library, not to a tree.
+    pub fn nothing(&self) -> bool {
+        !self.plant && self.maps.is_empty()
+    }
 }
 
 /// What structure knows of a plant, for decisions that need no geometry.
@@ -96,6 +103,8 @@ pub struct Baked {
     pub attributes: BTreeMap<AttributeKey, Array>,
     /// Values per table row.
     pub columns: BTreeMap<ColumnKey, Array>,
+    /// Rasters by name, of those that the contract gives the room.
+    pub rasters: BTreeMap<String, FloatRaster>,
     /// Every parameter as it was used.
     pub resolved: Map<String, Value>,
     /// Facts that a reader needs beside the arrays.

@@ -136,6 +136,12 @@ pub fn meets_reference(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach>
         if !layer.attributes.keys().eq(reference.attributes.keys()) {
             return Err(breach(format!("rung {}: reference and bake write different channels", rung.name)));
         }
+        if let Some(off) = rasters_off(&layer, &reference) {
+            let within = off.1 <= rung.promise_steps;
+            if !within {
+                return Err(breach(format!("rung {}: raster {} is off by {} steps rms", rung.name, off.0, off.1)));
+            }
+        }
         for name in &layer.record.writes {
             let pairs =
                 layer.attributes.iter().zip(reference.attributes.values()).filter(|((key, _), _)| key.name == *name);
@@ -151,6 +157,20 @@ pub fn meets_reference(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach>
         }
     }
     Ok(())
+}
+
+/// The raster that differs most from the reference, in its steps, rms; not-a-number where one is missing.
+fn rasters_off(layer: &Layer, reference: &crate::Baked) -> Option<(String, f64)> {
+    let off = |(name, exact): (&String, &crate::FloatRaster)| {
+        let step = foliar_schema::raster(name).map_or(f64::NAN, |info| info.visible_step);
+        let fast = layer.rasters.get(name).filter(|fast| fast.data.len() == exact.data.len());
+        let errors = fast.map(|fast| fast.data.iter().zip(&exact.data).map(|(a, b)| f64::from(a - b) / step));
+        (
+            name.clone(),
+            errors.map_or(f64::NAN, |errors| foliar_numerics::ErrorStats::of(errors.collect::<Vec<_>>()).rms),
+        )
+    };
+    reference.rasters.iter().map(off).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Law 6: nothing that is no number, nothing outside a channel's declared range, facts included.

@@ -1,6 +1,6 @@
 //! A layer: what one step makes.
 
-use crate::Array;
+use crate::{Array, FloatRaster};
 use foliar_plant::Place;
 use foliar_schema::{Record, Role};
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ pub struct ColumnKey {
     pub property: String,
 }
 
-/// What one step makes: its arrays and one record. Rasters and meshes join when a room makes them.
+/// What one step makes: its arrays and one record. Meshes join when a room makes them.
 /// Keys sort by (mesh, primitive, name) and (class, property): the order of every file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layer {
@@ -33,6 +33,8 @@ pub struct Layer {
     pub attributes: BTreeMap<AttributeKey, Array>,
     /// Values per table row.
     pub columns: BTreeMap<ColumnKey, Array>,
+    /// Rasters by name; none of them is part of a glTF yet.
+    pub rasters: BTreeMap<String, FloatRaster>,
     /// Role of each primitive; only the layer of `structure` has them.
     pub roles: BTreeMap<Place, Role>,
 }
@@ -73,6 +75,12 @@ impl Layer {
         }
         for (key, values) in &self.columns {
             array(format!("table/{}/{}", key.class, key.property), values);
+        }
+        for (name, raster) in &self.rasters {
+            let header = format!("raster/{name}[{},{},{}]", raster.height, raster.width, raster.channels);
+            hasher.update(&(header.len() as u64).to_le_bytes());
+            hasher.update(header.as_bytes());
+            hasher.update(bytemuck::cast_slice(&raster.data));
         }
         hasher.finalize().to_hex().to_string()
     }

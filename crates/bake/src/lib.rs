@@ -8,6 +8,7 @@ mod hash;
 pub mod laws;
 mod layer;
 mod placement;
+mod raster;
 pub mod reframe;
 mod run;
 
@@ -17,4 +18,5 @@ pub use error::BakeError;
 pub use hash::base_hash;
 pub use layer::{AttributeKey, ColumnKey, Layer};
 pub use placement::{Placed, Placement};
+pub use raster::FloatRaster;
 pub use run::{Request, resolve_params, run};

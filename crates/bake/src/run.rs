@@ -2,7 +2,7 @@
 //! the spot (own room, in range).
 
 use crate::{Array, BakeError, Baked, Baker, Inputs, Layer, Progress};
-use foliar_schema::{CHANNELS, COLUMNS, Channel, Record, check_ranges};
+use foliar_schema::{CHANNELS, COLUMNS, Channel, RASTERS, Record, check_ranges};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -76,6 +76,7 @@ pub fn run(
 fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec<foliar_schema::Finding>) {
     let mut writes: Vec<String> = baked.attributes.keys().map(|k| k.name.clone()).collect();
     writes.extend(baked.columns.keys().map(|k| format!("{}/{}", k.class, k.property)));
+    writes.extend(baked.rasters.keys().map(|name| format!("raster/{name}")));
     writes.sort();
     writes.dedup();
     let record = Record {
@@ -89,7 +90,8 @@ fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec
         facts: baked.facts,
         more: Map::new(),
     };
-    (Layer { record, attributes: baked.attributes, columns: baked.columns, roles: BTreeMap::new() }, baked.findings)
+    let Baked { attributes, columns, rasters, findings, .. } = baked;
+    (Layer { record, attributes, columns, rasters, roles: BTreeMap::new() }, findings)
 }
 
 fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
@@ -111,6 +113,15 @@ fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
                 row: bad.unwrap_or(0) / array.width(),
                 value: f32::NAN,
             });
+        }
+    }
+    for (name, raster) in &baked.rasters {
+        let info = RASTERS.iter().find(|info| info.name == name && info.room == room);
+        let right = info.filter(|info| info.channels == raster.channels && raster.is_whole());
+        let inside = |value: &f32| right.is_some_and(|info| *value >= info.min && *value <= info.max);
+        if let Some(at) = raster.data.iter().position(|value| !inside(value)) {
+            let (row, value) = (at / (raster.channels * raster.width).max(1) as usize, raster.data[at]);
+            return Err(BakeError::Broken { room: room.into(), channel: format!("raster/{name}"), row, value });
         }
     }
     Ok(())

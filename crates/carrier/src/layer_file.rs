@@ -1,8 +1,8 @@
-//! Layers on disk: safetensors, `attr/{mesh}/{primitive}/NAME` and `table/{class}/{property}`, with
+//! Layers on disk: safetensors, `attr/{mesh}/{primitive}/NAME`, `table/{class}/{property}` and `raster/{name}`, with
 //! record and roles as JSON under one metadata key (several keys would change order from run to run).
 
 use crate::CarrierError;
-use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
+use foliar_bake::{Array, AttributeKey, ColumnKey, FloatRaster, Layer};
 use foliar_plant::Place;
 use foliar_schema::{Record, Role, names};
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
@@ -32,6 +32,11 @@ pub(crate) fn to_bytes(layer: &Layer) -> Result<Vec<u8>, CarrierError> {
         let name = format!("table/{}/{}", key.class, key.property);
         views.insert(name, view(array).map_err(|e| fail(e.to_string()))?);
     }
+    for (name, raster) in &layer.rasters {
+        let shape = [raster.height, raster.width, raster.channels].map(|n| n as usize).to_vec();
+        let view = TensorView::new(Dtype::F32, shape, bytemuck::cast_slice(&raster.data));
+        views.insert(format!("raster/{name}"), view.map_err(|e| fail(e.to_string()))?);
+    }
     let roles = layer.roles.iter().map(|(place, role)| (format!("{}/{}", place.mesh, place.primitive), *role));
     let header = Header { record: layer.record.clone(), roles: roles.collect() };
     let header = serde_json::to_string(&header).map_err(|e| fail(e.to_string()))?;
@@ -57,17 +62,23 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
     let header = metadata.metadata().as_ref().and_then(|m| m.get(names::LAYER_METADATA_KEY));
     let header = header.ok_or_else(|| fail("__metadata__", format!("no key {:?}", names::LAYER_METADATA_KEY)))?;
     let header: Header = serde_json::from_str(header).map_err(|e| fail("__metadata__/foliar", e.to_string()))?;
-    let mut layer =
-        Layer { record: header.record, attributes: BTreeMap::new(), columns: BTreeMap::new(), roles: BTreeMap::new() };
+    let mut layer = Layer { record: header.record, ..Layer::default() };
     for (key, role) in header.roles {
         let place = place_of(&key).ok_or_else(|| fail("roles", format!("{key:?} is no mesh/primitive")))?;
         layer.roles.insert(place, role);
     }
     for name in metadata.offset_keys() {
         let tensor = tensors.tensor(&name).map_err(|e| fail(&name, e.to_string()))?;
+        if let Some(name) = name.strip_prefix("raster/") {
+            layer.rasters.insert(name.into(), raster(&tensor).map_err(|problem| fail(name, problem))?);
+            continue;
+        }
         let array = array(&tensor).map_err(|problem| fail(&name, problem))?;
         put(&mut layer, &name, array).ok_or_else(|| {
-            fail(&name, "no name of a layer's array (attr/MESH/PRIMITIVE/NAME or table/CLASS/PROPERTY)".into())
+            fail(
+                &name,
+                "no name of a layer's array (attr/MESH/PRIMITIVE/NAME, table/CLASS/PROPERTY or raster/NAME)".into(),
+            )
         })?;
     }
     Ok(layer)
@@ -89,6 +100,20 @@ fn put(layer: &mut Layer, name: &str, array: Array) -> Option<()> {
         layer.columns.insert(ColumnKey { class: class.into(), property: property.into() }, array);
     }
     Some(())
+}
+
+/// A raster of [height, width, channels].
+fn raster(tensor: &TensorView) -> Result<FloatRaster, String> {
+    let measures: Vec<u32> = tensor.shape().iter().filter_map(|&n| u32::try_from(n).ok()).collect();
+    match (measures.as_slice(), tensor.dtype()) {
+        (&[height, width, channels], Dtype::F32) => {
+            let words = tensor.data().chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+            Ok(FloatRaster { width, height, channels, data: words.collect() })
+        }
+        _ => {
+            Err(format!("shape {:?} of {:?} must be [height, width, channels] of F32", tensor.shape(), tensor.dtype()))
+        }
+    }
 }
 
 /// Copies numbers out, so that it does not matter where a writer aligned them.

@@ -24,6 +24,7 @@ pub mod obj;
 mod output;
 pub mod paths;
 mod pictures;
+mod raster_file;
 mod read;
 mod rebase;
 mod scene;
@@ -38,7 +39,7 @@ pub use error::CarrierError;
 pub use hull::hull_document;
 pub use output::{Step, write_files_with};
 
-use foliar_bake::Layer;
+use foliar_bake::{FloatRaster, Layer};
 use foliar_plant::Base;
 use foliar_schema::{Finding, Import};
 use std::path::{Path, PathBuf};
@@ -182,6 +183,15 @@ pub fn is_unchanged(files: &[OutputFile]) -> bool {
 /// As they have.
 pub fn write(document: &Document, path: &Path) -> Result<Outcome, CarrierError> {
     write_files(&encode(document, path)?)
+}
+
+/// The bytes of a raster as a picture, by the ending of `path`: `.exr` holds every bit, anything else is a PNG whose
+/// 16-bit numbers span the range that the contract declares for `name`.
+///
+/// # Errors
+/// [`CarrierError::Input`] for a raster of no or more than four channels.
+pub fn encode_raster(raster: &FloatRaster, name: &str, path: &Path) -> Result<Vec<u8>, CarrierError> {
+    raster_file::encode(raster, name, path)
 }
 
 /// A layer as a safetensors file: arrays by name, the record as canonical JSON in its metadata.

@@ -9,6 +9,7 @@ mod extension;
 mod finding;
 pub mod names;
 mod ranges;
+mod raster;
 mod record;
 mod role;
 
@@ -20,5 +21,6 @@ pub use config::{
 pub use extension::{CONTRACT, FoliageExtension, PrimitiveExtension};
 pub use finding::{Finding, Severity};
 pub use ranges::{RangeError, check_ranges};
+pub use raster::{RASTERS, RasterInfo, raster};
 pub use record::{MeasuredError, Record};
 pub use role::Role;

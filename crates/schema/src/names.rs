@@ -39,6 +39,11 @@ pub const ROOM_BRANCHES: &str = "branches";
 /// The room of metaball density (Luft07).
 pub const ROOM_DENSITY: &str = "density";
 
+/// The baker of wind noise: a texture for a library, no part of a tree.
+pub const ROOM_NOISE: &str = "noise";
+/// Raster of wind noise, two channels (Kusternig07 section 5).
+pub const RASTER_NOISE: &str = "noise";
+
 /// Key of the record in the metadata of a layer file (safetensors).
 pub const LAYER_METADATA_KEY: &str = "foliar";
 /// File ending of a layer on disk.

@@ -21,6 +21,8 @@ pub enum Direct<'a> {
     Import,
     /// Import, and what is packed.
     Pack,
+    /// The parameters of one section and no others.
+    Alone(&'a str),
 }
 
 impl Direct<'_> {
@@ -29,6 +31,7 @@ impl Direct<'_> {
         fields.all().iter().filter(move |field| match self {
             Direct::Import => field.section == "import",
             Direct::Pack => field.section == "import" || field.section == "pack",
+            Direct::Alone(section) => field.section == *section,
             Direct::Assets => is_asset(field) || is_shared(field),
             Direct::Section(section) => is_asset(field) || field.section == *section,
         })
@@ -80,8 +83,11 @@ fn value_name(field: &Field) -> String {
 /// Gives a command the flags of these parameters, and `--set` for all others.
 pub fn with_fields(command: Command, fields: &Fields, direct: Direct) -> Command {
     let command = command.args(direct.fields(fields).map(field_arg));
+    let command = match direct {
+        Direct::Alone(_) => command,
+        _ => command.mut_arg("import.unit", |arg| arg.conflicts_with("import.height_m")),
+    };
     command
-        .mut_arg("import.unit", |arg| arg.conflicts_with("import.height_m"))
         .arg(
             Arg::new("set")
                 .long("set")
@@ -236,7 +242,8 @@ pub fn with_surface(command: Command, bakers: &[&dyn Baker]) -> Command {
 
 /// `--only ROOM`.
 pub fn only(bakers: &[&dyn Baker]) -> Arg {
-    let rooms: Vec<&'static str> = bakers.iter().map(|baker| baker.room()).collect();
+    let rooms: Vec<&'static str> =
+        bakers.iter().filter(|baker| !baker.needs().nothing()).map(|baker| baker.room()).collect();
     Arg::new("only")
         .long("only")
         .value_name("ROOM")

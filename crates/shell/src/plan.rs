@@ -75,7 +75,8 @@ pub fn make<'a>(
 ) -> Result<Vec<Row<'a>>, Failure> {
     let scene: Scene = settings.section("scene")?;
     let has_scene = settings.has_section("scene");
-    bakers.iter().map(|baker| row(*baker, settings, only, has_scene.then_some(&scene), facts)).collect()
+    let of_trees = bakers.iter().filter(|baker| !baker.needs().nothing());
+    of_trees.map(|baker| row(*baker, settings, only, has_scene.then_some(&scene), facts)).collect()
 }
 
 fn row<'a>(

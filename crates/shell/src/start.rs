@@ -24,6 +24,11 @@ pub fn foliar_room(room: &str, bakers: &[&dyn Baker]) -> ExitCode {
     start(&Program::Room(room.into()), bakers)
 }
 
+/// The program `foliar-NAME` of a baker that needs nothing.
+pub fn foliar_library(room: &str, bakers: &[&dyn Baker]) -> ExitCode {
+    start(&Program::Library(room.into()), bakers)
+}
+
 /// The program `foliar-view`.
 pub fn foliar_view(bakers: &[&dyn Baker]) -> ExitCode {
     start(&Program::View, bakers)

@@ -39,8 +39,8 @@ pub fn tell(
 
 /// What a JSON line holds of a report; the plan and the roles where they were asked for.
 fn line(report: &Map<String, Value>, options: &Options, lists: &[PathBuf]) -> Value {
-    const KEPT: [&str; 10] =
-        ["asset", "output", "status", "exit", "error", "outputs", "leaves", "pack", "findings", "seconds"];
+    const KEPT: [&str; 11] =
+        ["asset", "output", "status", "exit", "error", "outputs", "leaves", "pack", "measured", "findings", "seconds"];
     let plan = (options.mode == Mode::DryRun).then_some("plan");
     let parts = options.explain_roles.then_some("parts");
     let names = KEPT.into_iter().chain(plan).chain(parts);

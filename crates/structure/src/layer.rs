@@ -31,7 +31,7 @@ pub fn to_layer(structure: &Structure, base: &Base) -> Layer {
         ..Record::default()
     };
     let roles = base.parts.iter().map(|p| p.place).zip(structure.roles.iter().copied()).collect();
-    Layer { record, attributes, columns, roles }
+    Layer { record, attributes, columns, roles, ..Layer::default() }
 }
 
 fn id_floats(ids: &[u32], vertices: usize, leaves: usize) -> Vec<f32> {

@@ -48,6 +48,7 @@ impl Reader<'_> {
     fn layer(&self, record: &Record, findings: &mut Vec<Finding>) -> Result<Layer, CarrierError> {
         let known = ROOMS.contains(&record.room.as_str());
         let mut layer = Layer {
+            rasters: BTreeMap::new(),
             record: record.clone(),
             attributes: BTreeMap::new(),
             columns: BTreeMap::new(),

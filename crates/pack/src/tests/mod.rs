@@ -27,7 +27,7 @@ fn layer(room: &str) -> Layer {
         facts: Default::default(),
         more: Default::default(),
     };
-    Layer { record, attributes: BTreeMap::new(), columns: BTreeMap::new(), roles: BTreeMap::new() }
+    Layer { record, ..Layer::default() }
 }
 
 /// The layers of a file of leaves: ids, and whichever channels are given.

@@ -5,6 +5,7 @@ mod bake;
 mod config;
 mod generate;
 mod inspect;
+mod library;
 mod pack;
 mod rebake;
 mod strip;
@@ -38,6 +39,7 @@ pub(crate) fn run(program: &Program, call: &Call) -> Result<(), Failure> {
     match program {
         Program::Import => bake::import(call),
         Program::Room(room) => bake::room(call, room),
+        Program::Library(room) => library::run(call, room),
         Program::View => view::run(call),
         Program::Pack => pack::run(call),
         Program::Foliar => {

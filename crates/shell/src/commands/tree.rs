@@ -14,6 +14,8 @@ pub enum Program {
     Import,
     /// `foliar-ROOM`: one room.
     Room(String),
+    /// `foliar-NAME` of a baker that needs nothing: a file for a library.
+    Library(String),
     /// `foliar-view`: pictures.
     View,
     /// `foliar-pack`: files that ship.
@@ -23,7 +25,8 @@ pub enum Program {
 impl Program {
     /// Every program that these bakers make.
     pub fn all(bakers: &[&dyn Baker]) -> Vec<Program> {
-        let rooms = bakers.iter().map(|baker| Program::Room(baker.room().into()));
+        let program = |room: String, alone| if alone { Program::Library(room) } else { Program::Room(room) };
+        let rooms = bakers.iter().map(|baker| program(baker.room().into(), baker.needs().nothing()));
         [Program::Foliar, Program::Import].into_iter().chain(rooms).chain([Program::View, Program::Pack]).collect()
     }
 
@@ -32,7 +35,7 @@ impl Program {
         match self {
             Program::Foliar => "foliar".into(),
             Program::Import => "foliar-import".into(),
-            Program::Room(room) => format!("foliar-{room}"),
+            Program::Room(room) | Program::Library(room) => format!("foliar-{room}"),
             Program::View => "foliar-view".into(),
             Program::Pack => "foliar-pack".into(),
         }
@@ -42,6 +45,7 @@ impl Program {
 /// The command line of a program: flags, help, man pages and completions all come from it.
 pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Command {
     let command = Command::new(program.name()).version(env!("CARGO_PKG_VERSION"));
+    let about = |room: &str| bakers.iter().find(|baker| baker.room() == room).map_or("", |baker| baker.about());
     match program {
         Program::Foliar => foliar(command, bakers, fields),
         Program::Import => {
@@ -50,10 +54,10 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
         }
         Program::Room(room) => {
             let own: Vec<&dyn Baker> = bakers.iter().copied().filter(|baker| baker.room() == room).collect();
-            let about = own.first().map_or("", |baker| baker.about());
-            let command = baking(command.about(format!("Bakes one room: {about}")), fields, Direct::Section(room));
-            flags::with_surface(command, &own)
+            let command = command.about(format!("Bakes one room: {}", about(room)));
+            flags::with_surface(baking(command, fields, Direct::Section(room)), &own)
         }
+        Program::Library(room) => library(command.about(format!("Bakes {}", about(room))), fields, room),
         Program::View => view(command, fields),
         Program::Pack => pack(command, fields),
     }
@@ -134,6 +138,17 @@ fn generate() -> Command {
         .hide(true)
         .arg(Arg::new("kind").value_name("KIND").value_parser(kinds).required(true).help("What to write"))
         .arg(flags::inputs("DIR", "Folder to write into").num_args(1).required(true))
+}
+
+/// A command without input.
+fn library(command: Command, fields: &Fields, room: &str) -> Command {
+    let command = command
+        .arg(
+            flags::output("Output: .png (16 bits), .exr (every bit), .layer, or - for a PNG on standard output")
+                .required(true),
+        )
+        .arg(flags::switch("measure", "Prints what was measured on it"));
+    common(command, fields, Direct::Alone(room), Leaves::Files)
 }
 
 fn view(command: Command, fields: &Fields) -> Command {

@@ -36,7 +36,7 @@ pub fn to_layer(branches: &Branches, base: &Base, facts: &Structure, structure: 
         facts: Map::new(),
         more: Map::new(),
     };
-    Layer { record, attributes, columns, roles: BTreeMap::new() }
+    Layer { record, attributes, columns, ..Layer::default() }
 }
 
 fn ids(list: &[OnBranch], vertices: usize, null: usize) -> Vec<f32> {
