@@ -1,11 +1,13 @@
-//! Compensated sums, error statistics, direction sets and low-discrepancy points. No glTF, no trees.
+//! Compensated sums, error statistics, quadrature, direction sets and low-discrepancy points. No glTF, no trees.
 
 mod directions;
 mod error_stats;
 mod morton;
+mod quadrature;
 mod sum;
 
 pub use directions::{fibonacci_sphere, r2_point, radical_inverse};
 pub use error_stats::{ErrorStats, spearman};
 pub use morton::{MORTON_BITS, morton3, morton3_inverse};
+pub use quadrature::{gauss_legendre, legendre};
 pub use sum::CompensatedSum;
