@@ -51,6 +51,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-view' -ScriptBlock {
             [CompletionResult]::new('--exposure', '--exposure', [CompletionResultType]::ParameterName, 'Factor on all light. [above 0, at most 1000, default 1.0]')
             [CompletionResult]::new('--background', '--background', [CompletionResultType]::ParameterName, 'What lies behind the tree. [default "studio"]')
             [CompletionResult]::new('--ground', '--ground', [CompletionResultType]::ParameterName, 'What lies under the tree. [default "shadow"]')
+            [CompletionResult]::new('--scale', '--scale', [CompletionResultType]::ParameterName, 'What says how large the plant is. [default "person"]')
             [CompletionResult]::new('--unit', '--unit', [CompletionResultType]::ParameterName, 'Unit of length of an OBJ; nothing said means m.')
             [CompletionResult]::new('--set', '--set', [CompletionResultType]::ParameterName, 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all')
             [CompletionResult]::new('--config', '--config', [CompletionResultType]::ParameterName, 'Reads this configuration instead of the project''s foliar.toml')

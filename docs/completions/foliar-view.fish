@@ -37,6 +37,9 @@ black\t'Black.'
 clear\t'Nothing: alpha 0.'"
 complete -c foliar-view -l ground -d 'What lies under the tree. [default "shadow"]' -r -f -a "shadow\t'Only the tree\'s shadow, fading out with distance.'
 none\t'Nothing.'"
+complete -c foliar-view -l scale -d 'What says how large the plant is. [default "person"]' -r -f -a "person\t'A person of 1.7 m beside plants of about that size or more, and a bar of a round length.'
+bar\t'The bar alone.'
+none\t'Nothing.'"
 complete -c foliar-view -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'
 mm\t'Millimeter.'

@@ -18,6 +18,11 @@ pub(crate) fn direction(azimuth_deg: f64, elevation_deg: f64) -> DVec3 {
     DVec3::new(level * libm::sin(azimuth), libm::sin(elevation), level * libm::cos(azimuth))
 }
 
+/// Unit, level: the right of a camera at `azimuth_deg`.
+pub(crate) fn right(azimuth_deg: f64) -> DVec3 {
+    DVec3::Y.cross(direction(azimuth_deg, 0.0))
+}
+
 /// A pinhole.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Camera {
@@ -34,7 +39,7 @@ impl Camera {
     /// The nearest camera that sees all `points` with the margin around them, centered as a whole.
     pub fn fit(points: impl Iterator<Item = Vec3>, params: &ViewParams) -> Camera {
         let backward = direction(params.azimuth_deg, params.elevation_deg);
-        let right = DVec3::Y.cross(backward).normalize();
+        let right = right(params.azimuth_deg);
         let up = backward.cross(right);
         let size = DVec2::new(f64::from(params.width_px), f64::from(params.height_px));
         let tangent = libm::tan(params.fov_deg.to_radians() / 2.0);

@@ -50,6 +50,11 @@ impl Frame {
         Frame { stand: other.transform, ..*self }
     }
 
+    /// A meter in the picture's frame.
+    pub fn per_meter(&self) -> f64 {
+        self.scale
+    }
+
     pub fn place(&self, rest: DVec3) -> DVec3 {
         (self.stand.transform_point3(rest) - self.center) * self.scale
     }

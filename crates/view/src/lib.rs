@@ -11,6 +11,7 @@ mod lines;
 mod mask;
 mod params;
 mod render;
+mod scale;
 mod scene;
 mod shade;
 mod sheet;
@@ -24,7 +25,7 @@ mod tests;
 pub use difference::{Difference, difference};
 pub use error::ViewError;
 pub use frame::Standing;
-pub use params::{Background, Ground, Look, Normals, Shading, ViewParams};
+pub use params::{Background, Ground, Look, Normals, Scale, Shading, ViewParams};
 pub use render::{render, render_among};
 pub use sheet::{Panel, bake_sheet, contact_sheet};
 

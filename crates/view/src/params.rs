@@ -59,6 +59,19 @@ pub enum Ground {
     None,
 }
 
+/// What says how large the plant is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Scale {
+    /// A person of 1.7 m beside plants of about that size or more, and a bar of a round length.
+    #[default]
+    Person,
+    /// The bar alone.
+    Bar,
+    /// Nothing.
+    None,
+}
+
 /// Parameters of a picture. Angles around the tree count from +Z (0) over +X (90), as seen from above
 /// counter-clockwise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -112,6 +125,8 @@ pub struct ViewParams {
     pub background: Background,
     /// What lies under the tree.
     pub ground: Ground,
+    /// What says how large the plant is.
+    pub scale: Scale,
 }
 
 impl Default for ViewParams {
@@ -135,6 +150,7 @@ impl Default for ViewParams {
             exposure: 1.0,
             background: Background::default(),
             ground: Ground::default(),
+            scale: Scale::default(),
         }
     }
 }

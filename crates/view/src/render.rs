@@ -4,7 +4,7 @@ use crate::camera::{self, Camera, PLANT_EDGE};
 use crate::frame::Standing;
 use crate::mask::Mask;
 use crate::scene::Scene;
-use crate::{Background, Ground, Shading, ViewError, ViewParams, colors, legend, lines, shade};
+use crate::{Background, Ground, Scale, Shading, ViewError, ViewParams, colors, legend, lines, scale, shade};
 use foliar_bake::Layer;
 use foliar_numerics::{r2_point, radical_inverse};
 use foliar_plant::Plant;
@@ -59,14 +59,17 @@ pub fn render_among(
     params: &ViewParams,
 ) -> Result<RgbaImage, ViewError> {
     params.check()?;
-    let scene = Scene::new(plant, layers, around, shading)?;
+    let right = camera::right(params.azimuth_deg).as_vec3();
+    let scene = Scene::new(plant, layers, around, shading, (params.scale == Scale::Person).then_some(right))?;
     let camera = Camera::fit(scene.fitted.iter().copied(), params);
     let mask = Mask::new(&camera, &scene.triangles, params.width_px, params.height_px);
-    if let Shading::Lines(_) = shading {
-        return Ok(lines::draw(&scene, camera, &mask, params));
+    let mut picture = match shading {
+        Shading::Lines(_) => lines::draw(&scene, camera, &mask, params),
+        _ => Tracer::new(&scene, camera, mask, params).trace(),
+    };
+    if params.scale != Scale::None && !scene.fitted.is_empty() {
+        scale::bar(&mut picture, &camera, right, scene.per_meter);
     }
-    let tracer = Tracer::new(&scene, camera, mask, params);
-    let picture = tracer.trace();
     Ok(match &scene.legend {
         Some(words) => legend::below(picture, words),
         None => picture,

@@ -2,6 +2,7 @@
 
 use crate::camera::PLANT_EDGE;
 use crate::frame::{Frame, Standing};
+use crate::scale::{self, Person};
 use crate::texture::{self, Cover, Decode, Texture};
 use crate::values::{self, Legend};
 use crate::{Normals, Shading, ViewError, colors};
@@ -19,6 +20,8 @@ const FARTHEST_OTHER: f64 = 30.0;
 /// Linear color of parts whose material says nothing, by role.
 const BARK: Vec3 = Vec3::new(0.13, 0.085, 0.055);
 const FOLIAGE: Vec3 = Vec3::new(0.10, 0.17, 0.04);
+/// Linear color of a person.
+const CLAY: Vec3 = Vec3::splat(0.3);
 /// Gray from here on is taken for a color that nobody chose (Blender's own default is 0.8, many MTLs hold
 /// it as sRGB: 0.6).
 const LEAST_UNSET: f32 = 0.55;
@@ -46,6 +49,22 @@ struct Skin<'a> {
     facing: Facing,
     /// Seen from its front only: a viewer leaves out its back.
     one_sided: bool,
+}
+
+impl Skin<'_> {
+    /// Gray without a texture, seen from both sides.
+    fn of_clay() -> Self {
+        Skin {
+            color: CLAY,
+            alpha: 1.0,
+            alpha_mode: AlphaMode::Opaque,
+            texture: None,
+            cover: None,
+            leaf: false,
+            facing: Facing::Viewer,
+            one_sided: false,
+        }
+    }
 }
 
 /// What a vertex normal is turned by.
@@ -93,6 +112,8 @@ pub(crate) struct Scene<'a> {
     pub fitted: Vec<Vec3>,
     /// Lowest point that is drawn.
     pub floor: f32,
+    /// A meter in the picture's frame.
+    pub per_meter: f64,
     pub legend: Option<Legend>,
     faces: Vec<Face>,
     vertices: Vec<Vertex>,
@@ -105,7 +126,7 @@ pub(crate) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    /// Gathers the plant and what stands around it.
+    /// Gathers the plant and what stands around it; where `person` gives the camera's right, a person stands there.
     ///
     /// # Errors
     /// [`ViewError`] where a layer does not fit its plant or the channel is not there.
@@ -114,12 +135,14 @@ impl<'a> Scene<'a> {
         layers: &[&Layer],
         around: &'a [Standing],
         shading: &Shading,
+        person: Option<Vec3>,
     ) -> Result<Scene<'a>, ViewError> {
         let mut scene = Scene {
             rays: Rays::default(),
             triangles: Vec::new(),
             fitted: Vec::new(),
             floor: 0.0,
+            per_meter: 1.0,
             legend: None,
             faces: Vec::new(),
             vertices: Vec::new(),
@@ -140,6 +163,10 @@ impl<'a> Scene<'a> {
             let frame = frame.of(other);
             let own: Vec<&Layer> = other.layers.iter().collect();
             scene.add(&other.plant, &own, shading, &frame, gray.as_deref())?;
+        }
+        scene.per_meter = frame.per_meter();
+        if let Some(person) = person.and_then(|right| scale::person(&scene.fitted, right, scene.per_meter)) {
+            scene.add_person(person);
         }
         scene.floor = scene.triangles.iter().flatten().map(|p| p.y).reduce(f32::min).unwrap_or_default();
         scene.rays = Rays::new(&scene.triangles)?;
@@ -210,6 +237,22 @@ impl<'a> Scene<'a> {
             }
         }
         places
+    }
+
+    /// Adds a person, gray in any light.
+    fn add_person(&mut self, person: Person) {
+        let (first, skin) = (self.vertices.len() as u32, self.skins.len() as u32);
+        self.skins.push(Skin::of_clay());
+        let vertex = |normal: Vec3| Vertex { normal, uv: Vec2::ZERO, ambient: 1.0 };
+        self.vertices.extend(person.normals.iter().copied().map(vertex));
+        if !self.colors.is_empty() {
+            self.colors.extend(person.points.iter().map(|_| if self.stock { Vec3::ONE } else { colors::NO_VALUE }));
+        }
+        for corners in person.triangles {
+            self.triangles.push(corners.map(|c| person.points[c as usize]));
+            self.faces.push(Face { corners: corners.map(|c| first + c), skin });
+        }
+        self.fitted.extend(person.points);
     }
 
     /// Whether a ray that draws `chance` in [0, 1) is stopped by what it met.

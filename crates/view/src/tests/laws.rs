@@ -5,7 +5,7 @@ use crate::{Normals, Panel, Shading, Standing, ViewError, bake_sheet, contact_sh
 use foliar_plant::sample::{Recipe, odd_plants};
 
 fn small() -> ViewParams {
-    ViewParams { width_px: 120, height_px: 90, samples: 4, ..ViewParams::default() }
+    ViewParams { width_px: 120, height_px: 90, samples: 4, scale: Scale::None, ..ViewParams::default() }
 }
 
 /// A tree of `scale` times its size, moved by `offset` meters.
@@ -40,22 +40,24 @@ fn plants_of_any_size_and_place_look_alike() {
 #[test]
 fn any_number_of_threads_draws_the_same_bytes() {
     let tree = Recipe::small().grow();
+    let params = ViewParams { scale: Scale::Person, ..small() };
     let bytes = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| png_bytes(&render(&tree, &[], &Shading::Baked, &small()).unwrap()).unwrap())
+        pool.install(|| png_bytes(&render(&tree, &[], &Shading::Baked, &params).unwrap()).unwrap())
     };
     let one = bytes(1);
     assert_eq!(one, bytes(2));
     assert_eq!(one, bytes(5));
     let decoded = image::load_from_memory(&one).unwrap().into_rgba8();
-    assert_eq!(decoded, render(&tree, &[], &Shading::Baked, &small()).unwrap(), "PNG keeps every pixel");
+    assert_eq!(decoded, render(&tree, &[], &Shading::Baked, &params).unwrap(), "PNG keeps every pixel");
 }
 
 #[test]
 fn odd_plants_get_a_picture() {
     for sample in odd_plants() {
         for shading in [Shading::Plain, Shading::Baked, Shading::Stock, Shading::Lines(Normals::Baked)] {
-            let picture = render(&sample.plant, &[], &shading, &small()).map_err(|e| format!("{}: {e}", sample.name));
+            let params = ViewParams { scale: Scale::Person, ..small() };
+            let picture = render(&sample.plant, &[], &shading, &params).map_err(|e| format!("{}: {e}", sample.name));
             assert_eq!(picture.unwrap().dimensions(), (120, 90), "{}", sample.name);
         }
     }
@@ -87,6 +89,27 @@ fn a_tree_stands_whole_in_the_picture() {
         let (high, wide) = (span(rows.collect()), span(columns.collect()));
         assert!(f64::from(high) > 0.75 * 90.0 || f64::from(wide) > 0.75 * 120.0, "{wide} x {high}");
     }
+}
+
+#[test]
+fn a_person_and_a_bar_are_as_long_as_they_say() {
+    // A post of 2 m, seen level and from afar, so that near things are hardly larger: a person of 1.7 m is .85 of it.
+    let post = plant(vec![(quad(Vec3::Y, Vec3::X * 0.1, Vec3::Y), Role::Wood, gray(0.2))], vec![]);
+    let params = ViewParams { fov_deg: 1.0, samples: 16, scale: Scale::Person, ..frontal() };
+    let picture = render(&post, &[], &Shading::Plain, &params).unwrap();
+    let span = |keep: &dyn Fn(u32, u32, &Rgba<u8>) -> bool| {
+        let rows = picture.enumerate_pixels().filter(|(x, y, p)| keep(*x, *y, p)).map(|(_, y, _)| y);
+        let rows: Vec<u32> = rows.collect();
+        f64::from(rows.iter().max().unwrap() - rows.iter().min().unwrap() + 1)
+    };
+    let solid = |p: &Rgba<u8>| p.0[3] > 128;
+    // The bar stands in the lower left corner, the post left of the middle, the person right of it.
+    let post = span(&|x, _, p| (60..110).contains(&x) && solid(p));
+    let person = span(&|x, _, p| x > 110 && solid(p));
+    // Either end of either height may be a pixel off, and the person stands 2 % nearer or farther at most.
+    assert!((person / post - 0.85).abs() < 0.02 + 4.0 / post, "{person} of {post} pixels");
+    let ink = picture.enumerate_pixels().filter(|(_, y, p)| *y == 180 - 14 && p.0 == [20, 20, 20, 255]).count();
+    assert!((ink as f64 - post / 4.0).abs() <= 1.0, "0.5 m is a quarter of the post: {ink} of {post} pixels");
 }
 
 #[test]

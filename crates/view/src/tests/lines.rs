@@ -113,7 +113,7 @@ fn what_stands_far_before_something_has_an_edge() {
 #[test]
 fn any_number_of_threads_and_any_background_draw_the_same_lines() {
     let tree = foliar_plant::sample::Recipe::small().grow();
-    let params = ViewParams { width_px: 150, height_px: 100, samples: 4, ..ViewParams::default() };
+    let params = ViewParams { width_px: 150, height_px: 100, samples: 4, scale: Scale::None, ..ViewParams::default() };
     let draw = |threads, params: &ViewParams| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| render(&tree, &[], &Shading::Lines(Normals::Baked), params).unwrap())

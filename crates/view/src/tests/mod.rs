@@ -4,7 +4,7 @@ mod laws;
 mod light;
 mod lines;
 
-use crate::{Background, Ground, ViewParams};
+use crate::{Background, Ground, Scale, ViewParams};
 use foliar_bake::{Array, AttributeKey, Layer};
 use foliar_plant::{AlphaMode, Base, Material, Part, Place, Plant, Raster, Structure};
 use foliar_schema::{Record, Role};
@@ -71,6 +71,7 @@ pub(crate) fn frontal() -> ViewParams {
         elevation_deg: 0.0,
         background: Background::Clear,
         ground: Ground::None,
+        scale: Scale::None,
         ..ViewParams::default()
     }
 }
