@@ -17,7 +17,12 @@ fn a_baked_tree_a_raw_one_and_a_channel_are_drawn() {
     let raw = drawn("raw.png", text(&obj), &["--look", "plain"]);
     let lit = drawn("lit.png", text(&baked), &[]);
     let channel = drawn("channel.png", text(&baked), &["--channel", "_AMBIENT"]);
-    assert!(raw != lit && lit != channel, "three pictures of three things");
+    let roles = drawn("roles.png", text(&obj), &["--channel", "role"]);
+    let turning = drawn("turning.png", text(&baked), &["--turntable", "3"]);
+    let beside = drawn("beside.png", text(&obj), &["--against", text(&baked)]);
+    let all = [&raw, &lit, &channel, &roles, &turning, &beside];
+    assert!((1..all.len()).all(|i| !all[..i].contains(&all[i])), "six pictures of six things");
+    assert_eq!(turning.windows(4).filter(|w| w == b"fcTL").count(), 3, "three frames");
     assert_eq!(drawn("again.png", text(&baked), &[]), lit);
 }
 

@@ -23,6 +23,8 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-view' -ScriptBlock {
         'foliar-view' {
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output: .png, or - for standard output')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output: .png, or - for standard output')
+            [CompletionResult]::new('--against', '--against', [CompletionResultType]::ParameterName, 'Draws FILE beside it, and what differs')
+            [CompletionResult]::new('--turntable', '--turntable', [CompletionResultType]::ParameterName, 'Draws an animated PNG: the plant turns once in so many pictures, 24 a second')
             [CompletionResult]::new('--up', '--up', [CompletionResultType]::ParameterName, 'Axis of an OBJ that points up; nothing said means y.')
             [CompletionResult]::new('--height-m', '--height-m', [CompletionResultType]::ParameterName, 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]')
             [CompletionResult]::new('--node', '--node', [CompletionResultType]::ParameterName, 'Node of a glTF to bake, by name, with everything below it.')
@@ -42,7 +44,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-view' -ScriptBlock {
             [CompletionResult]::new('--line-width-px', '--line-width-px', [CompletionResultType]::ParameterName, 'Width of `lines` in pixels. [pixels, at least 0.1, at most 16, default 1.2]')
             [CompletionResult]::new('--line-detail-px', '--line-detail-px', [CompletionResultType]::ParameterName, 'Gaps and leaves smaller than this are left out of `lines`, pixels; 0 keeps all. [pixels, at least 0, at most 32, default 6.0]')
             [CompletionResult]::new('--neighbor', '--neighbor', [CompletionResultType]::ParameterName, 'Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.')
-            [CompletionResult]::new('--channel', '--channel', [CompletionResultType]::ParameterName, 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.')
+            [CompletionResult]::new('--channel', '--channel', [CompletionResultType]::ParameterName, 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`; `role` shows what each part was taken for.')
             [CompletionResult]::new('--azimuth-deg', '--azimuth-deg', [CompletionResultType]::ParameterName, 'Where the camera stands around the tree, degrees. [degrees, at least -360, at most 360, default 30.0]')
             [CompletionResult]::new('--elevation-deg', '--elevation-deg', [CompletionResultType]::ParameterName, 'How far the camera stands above the tree''s horizon, degrees. [degrees, at least -89, at most 89, default 10.0]')
             [CompletionResult]::new('--fov-deg', '--fov-deg', [CompletionResultType]::ParameterName, 'Vertical opening of the camera, degrees. [degrees, at least 1, at most 120, default 30.0]')

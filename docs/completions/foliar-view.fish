@@ -1,4 +1,6 @@
 complete -c foliar-view -s o -l output -d 'Output: .png, or - for standard output' -r -F
+complete -c foliar-view -l against -d 'Draws FILE beside it, and what differs' -r -F
+complete -c foliar-view -l turntable -d 'Draws an animated PNG: the plant turns once in so many pictures, 24 a second' -r
 complete -c foliar-view -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
 z\t'Z up: turned by -90 degrees about X.'"
 complete -c foliar-view -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
@@ -24,7 +26,7 @@ complete -c foliar-view -l line-angle-deg -d 'Angle between the normals of neigh
 complete -c foliar-view -l line-width-px -d 'Width of `lines` in pixels. [pixels, at least 0.1, at most 16, default 1.2]' -r
 complete -c foliar-view -l line-detail-px -d 'Gaps and leaves smaller than this are left out of `lines`, pixels; 0 keeps all. [pixels, at least 0, at most 32, default 6.0]' -r
 complete -c foliar-view -l neighbor -d 'Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.' -r
-complete -c foliar-view -l channel -d 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.' -r
+complete -c foliar-view -l channel -d 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`; `role` shows what each part was taken for.' -r
 complete -c foliar-view -l azimuth-deg -d 'Where the camera stands around the tree, degrees. [degrees, at least -360, at most 360, default 30.0]' -r
 complete -c foliar-view -l elevation-deg -d 'How far the camera stands above the tree\'s horizon, degrees. [degrees, at least -89, at most 89, default 10.0]' -r
 complete -c foliar-view -l fov-deg -d 'Vertical opening of the camera, degrees. [degrees, at least 1, at most 120, default 30.0]' -r

@@ -143,7 +143,7 @@ pub fn standing(
 ) -> Result<Vec<Standing>, Failure> {
     let mut standing = Vec::new();
     for stand in list {
-        let found = load_one(sources, options, &stand.file, report)?;
+        let found = load_beside(sources, options, &stand.file, "neighbor", report)?;
         standing.push(Standing { plant: found.plant, layers: found.layers, transform: stand.placement.transform() });
     }
     Ok(standing)
@@ -165,16 +165,26 @@ fn find(stand: &Stand, input: &Path, settings: &Settings) -> Result<PathBuf, Fai
 }
 
 fn read(baking: &Baking, file: &Path, report: &mut Report) -> Result<Read, Failure> {
-    let found = load_one(baking.sources, baking.options, file, report)?;
+    let found = load_beside(baking.sources, baking.options, file, "neighbor", report)?;
     let structure = found.structure.content_hash();
     Ok(Read { plant: Arc::new(found.plant), base: found.base_hash, structure })
 }
 
-fn load_one(sources: &Sources, options: &Options, file: &Path, report: &mut Report) -> Result<Loaded, Failure> {
+/// A file that is read beside the input, `what` it is to it; its findings name it.
+///
+/// # Errors
+/// As [`load::load`], in that file.
+pub fn load_beside(
+    sources: &Sources,
+    options: &Options,
+    file: &Path,
+    what: &str,
+    report: &mut Report,
+) -> Result<Loaded, Failure> {
     let flags = flags_for(&sources.flags, file);
     let sources = Sources { flags, environment: sources.environment.clone(), ..*sources };
     let mut found = load::load(&sources, options, file)
-        .map_err(|failure| failure.in_file(&format!("neighbor {}", file.display())))?;
+        .map_err(|failure| failure.in_file(&format!("{what} {}", file.display())))?;
     let in_file = |finding: Finding| match finding.file {
         Some(_) => finding,
         None => finding.in_file(file.display().to_string()),

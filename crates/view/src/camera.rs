@@ -27,7 +27,7 @@ pub(crate) fn right(azimuth_deg: f64) -> DVec3 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Camera {
     pub eye: Vec3,
-    right: Vec3,
+    pub right: Vec3,
     up: Vec3,
     forward: Vec3,
     /// Half the picture's width and height at distance 1.

@@ -1,5 +1,6 @@
 //! Colors: sRGB, mild tone mapping, and false colors that are even to the eye (Oklab, Ottosson 2020).
 
+use foliar_schema::Role;
 use glam::{Mat3, Vec3};
 
 /// Linear light of an sRGB value in [0, 1] (IEC 61966-2-1).
@@ -69,6 +70,15 @@ pub(crate) fn of_id(id: u32) -> Vec3 {
     let mixed = mix(id);
     let hue = (mixed & 0xFFFF) as f32 * (360.0 / 65536.0);
     oklch(0.55 + 0.3 * (mixed >> 16) as f32 / 65536.0, 0.13, hue)
+}
+
+/// Color of a role.
+pub(crate) fn of_role(role: Role) -> Vec3 {
+    match role {
+        Role::Wood => oklch(0.6, 0.13, 50.0),
+        Role::Leaf => oklch(0.75, 0.17, 140.0),
+        Role::Other => oklch(0.6, 0.13, 260.0),
+    }
 }
 
 /// Color of a unit vector: its components as red, green, blue around middle gray (sRGB).

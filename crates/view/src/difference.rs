@@ -22,6 +22,13 @@ pub struct Difference {
     pub share: f64,
 }
 
+impl std::fmt::Display for Difference {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (mean, most, share) = (self.mean_steps, self.max_steps, 100.0 * self.share);
+        write!(f, "difference: mean {mean:.1}, most {most:.0} steps of 255; {share:.0} % of pixels")
+    }
+}
+
 /// Lightness of `b` less that of `a`, in steps of an 8-bit picture, as a picture with a legend.
 ///
 /// # Errors
@@ -47,7 +54,7 @@ pub fn difference(a: &RgbaImage, b: &RgbaImage) -> Result<Difference, ViewError>
 fn words() -> Legend {
     Legend {
         name: "difference of lightness".into(),
-        doc: "blue: darker than plain, orange: brighter".into(),
+        doc: "blue: darker than before, orange: brighter".into(),
         unit: "steps of 255".into(),
         kind: Key::Diverging(SCALE_STEPS),
     }

@@ -44,4 +44,7 @@ pub enum ViewError {
     /// The picture does not fit into a PNG.
     #[error("PNG: {0}")]
     Png(#[from] image::ImageError),
+    /// The pictures do not fit into an animated PNG.
+    #[error("animated PNG: {0}")]
+    Apng(#[from] png::EncodingError),
 }

@@ -3,6 +3,7 @@
 use crate::colors;
 use crate::text::{self, SMALL, number};
 use crate::values::{Key, Legend};
+use foliar_schema::Role;
 use glam::Vec3;
 use image::{Rgba, RgbaImage};
 
@@ -11,6 +12,8 @@ const PAD: u32 = 10;
 /// Size of the bar of colors, pixels.
 pub(crate) const BAR: [u32; 2] = [256, 16];
 
+/// In the order of the bar.
+const ROLES: [Role; 3] = [Role::Wood, Role::Leaf, Role::Other];
 /// Behind the legend.
 const PAPER: Rgba<u8> = Rgba([28, 28, 30, 255]);
 
@@ -63,6 +66,7 @@ fn bar_color(kind: &Key, share: f32, row: u32) -> Vec3 {
         Key::Direction => colors::of_direction(axis(Vec3::AXES) * if row < BAR[1] / 2 { 1.0 } else { -1.0 }),
         Key::Box => axis(Vec3::AXES) * colors::to_linear(third.fract()),
         Key::Ids(_) => colors::of_id((share * 31.99) as u32),
+        Key::Roles => colors::of_role(ROLES[third as usize]),
     }
 }
 
@@ -72,6 +76,7 @@ fn numbers(picture: &mut RgbaImage, kind: &Key, x: u32, y: u32) {
         Key::Diverging(most) => vec![number(-most), "0".into(), format!("+{}", number(*most))],
         Key::Direction => ["+-X", "+-Y", "+-Z"].map(String::from).into(),
         Key::Box => ["X", "Y", "Z"].map(String::from).into(),
+        Key::Roles => ROLES.map(|role| role.to_string()).into(),
         Key::Ids(count) => vec![format!("{count} ids, colors without order")],
     };
     let last = words.len().max(2) - 1;

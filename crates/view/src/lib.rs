@@ -1,6 +1,7 @@
 //! Pictures of what was baked: the lit tree, a channel in false colors, differences and contact
 //! sheets, by ray casting. Nothing here touches a file.
 
+mod animation;
 mod camera;
 mod colors;
 mod difference;
@@ -22,12 +23,13 @@ mod values;
 #[cfg(test)]
 mod tests;
 
+pub use animation::{apng_bytes, turntable};
 pub use difference::{Difference, difference};
 pub use error::ViewError;
 pub use frame::Standing;
 pub use params::{Background, Ground, Look, Normals, Scale, Shading, ViewParams};
 pub use render::{render, render_among};
-pub use sheet::{Panel, bake_sheet, contact_sheet};
+pub use sheet::{Panel, bake_sheet, comparison, contact_sheet};
 
 use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png};
 

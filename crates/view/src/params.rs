@@ -101,7 +101,8 @@ pub struct ViewParams {
     pub line_detail_px: f64,
     /// Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.
     pub neighbor: Vec<String>,
-    /// Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/area`.
+    /// Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`; `role`
+    /// shows what each part was taken for.
     pub channel: Option<String>,
     /// Where the camera stands around the tree, degrees.
     #[schemars(range(min = -360.0, max = 360.0))]

@@ -62,18 +62,23 @@ pub fn render_among(
     let right = camera::right(params.azimuth_deg).as_vec3();
     let scene = Scene::new(plant, layers, around, shading, (params.scale == Scale::Person).then_some(right))?;
     let camera = Camera::fit(scene.fitted.iter().copied(), params);
+    Ok(draw(&scene, camera, shading, params))
+}
+
+/// The scene as a camera sees it, with its bar and legend.
+pub(crate) fn draw(scene: &Scene, camera: Camera, shading: &Shading, params: &ViewParams) -> RgbaImage {
     let mask = Mask::new(&camera, &scene.triangles, params.width_px, params.height_px);
     let mut picture = match shading {
-        Shading::Lines(_) => lines::draw(&scene, camera, &mask, params),
-        _ => Tracer::new(&scene, camera, mask, params).trace(),
+        Shading::Lines(_) => lines::draw(scene, camera, &mask, params),
+        _ => Tracer::new(scene, camera, mask, params).trace(),
     };
     if params.scale != Scale::None && !scene.fitted.is_empty() {
-        scale::bar(&mut picture, &camera, right, scene.per_meter);
+        scale::bar(&mut picture, &camera, scene.per_meter);
     }
-    Ok(match &scene.legend {
+    match &scene.legend {
         Some(words) => legend::below(picture, words),
         None => picture,
-    })
+    }
 }
 
 struct Tracer<'a> {

@@ -111,8 +111,8 @@ fn round_length(length: f64) -> f64 {
 }
 
 /// Draws the bar into the lower left corner: as long as it would be in the middle of the plant.
-pub(crate) fn bar(picture: &mut RgbaImage, camera: &Camera, right: Vec3, per_meter: f64) {
-    let (Some(a), Some(b)) = (camera.project(Vec3::ZERO), camera.project(right)) else { return };
+pub(crate) fn bar(picture: &mut RgbaImage, camera: &Camera, per_meter: f64) {
+    let (Some(a), Some(b)) = (camera.project(Vec3::ZERO), camera.project(camera.right)) else { return };
     let pixels_per_meter = (b - a).length() * per_meter as f32;
     let longest = BAR_SHARE * picture.width() as f32 / pixels_per_meter;
     if !longest.is_normal() {

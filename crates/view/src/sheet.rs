@@ -69,12 +69,7 @@ pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
     let plain = render(plant, layers, &Shading::Plain, params)?;
     let baked = render(plant, layers, &Shading::Baked, params)?;
     let changed = difference(&plain, &baked)?;
-    let caption = format!(
-        "difference: mean {:.1}, most {:.0} steps of 255; {:.0} % of pixels",
-        changed.mean_steps,
-        changed.max_steps,
-        100.0 * changed.share
-    );
+    let caption = changed.to_string();
     let mut panels = vec![
         Panel::new("plain: normals of the file, the same ambient light everywhere", plain),
         Panel::new("baked: realigned normals, ambient coefficient", baked),
@@ -93,6 +88,20 @@ pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
         text::number(size.z as f32)
     );
     Ok(contact_sheet(&panels, &[title.into(), facts], 2))
+}
+
+/// Two plants side by side and what differs, under their names.
+///
+/// # Errors
+/// As [`render`]; [`ViewError::Sizes`] where one legend is higher than the other.
+pub fn comparison(plants: [(&Plant, &[&Layer], &str); 2], params: &ViewParams) -> Result<RgbaImage, ViewError> {
+    let [before, after] = plants.map(|(plant, layers, _)| render(plant, layers, &params.shading(), params));
+    let (before, after) = (before?, after?);
+    let changed = difference(&before, &after)?;
+    let caption = changed.to_string();
+    let [a, b] = plants.map(|(_, _, name)| name);
+    let panels = [Panel::new(a, before), Panel::new(b, after), Panel::new(caption, changed.picture)];
+    Ok(contact_sheet(&panels, &[format!("{a} | {b} | difference")], 3))
 }
 
 /// Least, mean and greatest ambient coefficient over all vertices that have one.

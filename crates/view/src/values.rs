@@ -2,7 +2,7 @@
 
 use crate::{ViewError, colors};
 use foliar_bake::{Array, Layer};
-use foliar_plant::Plant;
+use foliar_plant::{Part, Plant};
 use foliar_schema::{Channel, channel, column, names};
 use glam::Vec3;
 
@@ -32,6 +32,8 @@ pub(crate) enum Key {
     Box,
     /// [`colors::of_id`]; so many ids.
     Ids(usize),
+    /// [`colors::of_role`].
+    Roles,
 }
 
 /// Linear colors per part and vertex, and what they mean.
@@ -70,6 +72,9 @@ pub(crate) fn ambient<'a>(plant: &Plant, layers: &[&'a Layer]) -> Result<Vec<Opt
 pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Result<FalseColors, ViewError> {
     let plain = |s: &str| s.trim_start_matches('_').to_ascii_lowercase();
     let wanted = plain(name);
+    if wanted == ROLE {
+        return Ok(of_roles(plant));
+    }
     let channels = layers.iter().flat_map(|layer| layer.attributes.keys()).map(|key| key.name.as_str());
     if let Some(info) = channels.filter_map(channel).find(|info| plain(info.name) == wanted) {
         return of_channel(plant, layers, info);
@@ -83,13 +88,24 @@ pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Resu
     }
 }
 
+/// Asked for in place of a channel: what each part was taken for.
+const ROLE: &str = "role";
+
+fn of_roles(plant: &Plant) -> FalseColors {
+    let part = |(index, part): (usize, &Part)| vec![colors::of_role(plant.role(index)); part.positions.len()];
+    let doc = "what each part was taken for".into();
+    let legend = Legend { name: ROLE.into(), doc, unit: String::new(), kind: Key::Roles };
+    FalseColors { colors: plant.parts().iter().enumerate().map(part).collect(), legend }
+}
+
 fn known(layers: &[&Layer]) -> String {
     let mut names: Vec<String> =
         layers.iter().flat_map(|layer| layer.attributes.keys().map(|k| k.name.clone())).collect();
     names.extend(layers.iter().flat_map(|l| l.columns.keys().map(|k| format!("{}/{}", k.class, k.property))));
+    names.push(ROLE.into());
     names.sort();
     names.dedup();
-    if names.is_empty() { "nothing: bake first".into() } else { names.join(", ") }
+    names.join(", ")
 }
 
 fn of_channel(plant: &Plant, layers: &[&Layer], info: &Channel) -> Result<FalseColors, ViewError> {

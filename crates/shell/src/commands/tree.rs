@@ -2,7 +2,7 @@
 
 use crate::config::Fields;
 use crate::flags::{self, Direct, Leaves};
-use clap::{Arg, Command};
+use clap::{Arg, Command, value_parser};
 use foliar_bake::Baker;
 
 /// A program of this house.
@@ -156,7 +156,16 @@ fn view(command: Command, fields: &Fields) -> Command {
         .about("Draws a tree as it is lit, or a channel in false colors")
         .arg(flags::inputs("FILE", "OBJ, glTF or GLB file; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .png, or - for standard output").required(true))
-        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"));
+        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"))
+        .arg(flags::path("against", "FILE", "Draws FILE beside it, and what differs").conflicts_with("sheet"))
+        .arg(
+            Arg::new("turntable")
+                .long("turntable")
+                .value_name("FRAMES")
+                .value_parser(value_parser!(u32).range(2..=720))
+                .conflicts_with_all(["sheet", "against"])
+                .help("Draws an animated PNG: the plant turns once in so many pictures, 24 a second"),
+        );
     common(command, fields, Direct::Section("view"), Leaves::Files)
 }
 

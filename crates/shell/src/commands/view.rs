@@ -10,10 +10,14 @@ use crate::neighbors;
 use crate::options::{Mode, Options, is_dash};
 use crate::outputs::Job;
 use crate::runner::{self, Product};
+use clap::ArgMatches;
 use foliar_bake::Layer;
 use foliar_carrier::OutputFile;
 use foliar_view::{Standing, ViewError, ViewParams};
 use std::path::{Path, PathBuf};
+
+/// Pictures of a turntable shown in a second.
+const FRAMES_PER_SECOND: u16 = 24;
 
 /// Runs the command.
 pub fn run(call: &Call) -> Result<(), Failure> {
@@ -21,7 +25,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     let console = options.console();
     let sources = Sources::new(call, Direct::Section("view"))?;
     let (input, output) = files(&options)?;
-    let sheet = call.matches.get_flag("sheet");
+    let wanted = Wanted::from(call.matches);
     let job = Job { input, output: Some(output.clone()) };
     runner::run(&options, &console, &[job], &mut |job, report| {
         let mut loaded = load(&sources, &options, &job.input)?;
@@ -31,10 +35,19 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         console.log(&report.lap("read"));
         let params = view_params(&loaded.settings)?;
         if options.mode == Mode::DryRun {
-            let what = if sheet { "a contact sheet" } else { "a picture" };
-            return Ok(report.planned(&output, &format!("{what} of {} x {}", params.width_px, params.height_px)));
+            let size = format!("{} x {}", params.width_px, params.height_px);
+            return Ok(report.planned(&output, &format!("{} of {size}", wanted.name())));
         }
-        let bytes = draw(&loaded, &around, &job.input, sheet, &params)?;
+        let layers = all_layers(&loaded);
+        let tree = Tree { loaded: &loaded, layers: &layers, around: &around, input: &job.input };
+        let bytes = match &wanted {
+            Wanted::Against(other) => {
+                let beside = neighbors::load_beside(&sources, &options, other, "--against", report)?;
+                tree.against(&beside, other, &params)
+            }
+            wanted => tree.draw(wanted, &params),
+        };
+        let bytes = bytes.map_err(|error| refuse(&error, &job.input))?;
         console.log(&report.lap("picture"));
         Ok(Product::Files(vec![OutputFile { path: output.clone(), bytes }]))
     })
@@ -51,23 +64,73 @@ fn files(options: &Options) -> Result<(PathBuf, PathBuf), Failure> {
     Ok((input.clone(), output.clone()))
 }
 
-fn draw(
-    loaded: &Loaded,
-    around: &[Standing],
-    input: &Path,
-    sheet: bool,
-    params: &ViewParams,
-) -> Result<Vec<u8>, Failure> {
-    let layers: Vec<&Layer> = std::iter::once(&loaded.structure).chain(&loaded.layers).collect();
-    let title = input.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let refuse = |error: ViewError| match error {
+/// What is drawn.
+enum Wanted {
+    Picture,
+    Sheet,
+    Turntable(u32),
+    Against(PathBuf),
+}
+
+impl Wanted {
+    fn from(matches: &ArgMatches) -> Self {
+        match (matches.get_one::<PathBuf>("against"), matches.get_one::<u32>("turntable")) {
+            (Some(other), _) => Wanted::Against(other.clone()),
+            (None, Some(&frames)) => Wanted::Turntable(frames),
+            (None, None) if matches.get_flag("sheet") => Wanted::Sheet,
+            (None, None) => Wanted::Picture,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Wanted::Picture => "a picture",
+            Wanted::Sheet | Wanted::Against(_) => "a contact sheet with pictures",
+            Wanted::Turntable(_) => "an animated picture",
+        }
+    }
+}
+
+fn all_layers(loaded: &Loaded) -> Vec<&Layer> {
+    std::iter::once(&loaded.structure).chain(&loaded.layers).collect()
+}
+
+fn refuse(error: &ViewError, input: &Path) -> Failure {
+    match error {
         ViewError::Range(_) | ViewError::NotFinite | ViewError::Channel { .. } => Failure::Usage(error.to_string()),
         _ => Failure::Input(format!("{}: {error}", input.display())),
-    };
-    let picture = if sheet {
-        foliar_view::bake_sheet(&loaded.plant, &layers, &title, params)
-    } else {
-        foliar_view::render_among(&loaded.plant, &layers, around, &params.shading(), params)
-    };
-    foliar_view::png_bytes(&picture.map_err(refuse)?).map_err(refuse)
+    }
+}
+
+/// The plant that is drawn.
+struct Tree<'a> {
+    loaded: &'a Loaded,
+    layers: &'a [&'a Layer],
+    around: &'a [Standing],
+    input: &'a Path,
+}
+
+impl Tree<'_> {
+    fn draw(&self, wanted: &Wanted, params: &ViewParams) -> Result<Vec<u8>, ViewError> {
+        let (plant, layers, shading) = (&self.loaded.plant, self.layers, params.shading());
+        if let Wanted::Turntable(frames) = *wanted {
+            let turned = foliar_view::turntable(plant, layers, self.around, &shading, params, frames)?;
+            return foliar_view::apng_bytes(&turned, FRAMES_PER_SECOND);
+        }
+        let title = self.input.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let picture = match wanted {
+            Wanted::Sheet => foliar_view::bake_sheet(plant, layers, &title, params),
+            _ => foliar_view::render_among(plant, layers, self.around, &shading, params),
+        };
+        foliar_view::png_bytes(&picture?)
+    }
+
+    /// Under the names of the files: a picture holds no paths.
+    fn against(&self, other: &Loaded, file: &Path, params: &ViewParams) -> Result<Vec<u8>, ViewError> {
+        let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let (name, other_name) = (name(self.input), name(file));
+        let layers = all_layers(other);
+        let plants = [(&self.loaded.plant, self.layers, &*name), (&other.plant, &*layers, &*other_name)];
+        foliar_view::png_bytes(&foliar_view::comparison(plants, params)?)
+    }
 }

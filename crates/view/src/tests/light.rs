@@ -173,6 +173,19 @@ fn false_colors_are_those_of_the_legend() {
 }
 
 #[test]
+fn a_role_has_a_color_of_its_own_and_no_layer_is_asked() {
+    let wood = quad(Vec3::ZERO, Vec3::X, Vec3::Y);
+    let color = |role| {
+        let plant = plant(vec![(wood.clone(), role, gray(0.2))], vec![]);
+        middle(&render(&plant, &[], &Shading::Channel("role".into()), &frontal()).unwrap()).0
+    };
+    let [r, g, _, _] = color(Role::Leaf);
+    assert!(g > r, "leaves are green");
+    let [r, g, _, _] = color(Role::Wood);
+    assert!(r > g, "wood is brown");
+}
+
+#[test]
 fn a_material_that_says_nothing_is_drawn_as_bark_or_foliage() {
     let params = ViewParams { sun_azimuth_deg: 0.0, sun_elevation_deg: 90.0, ..frontal() };
     let of = |role, material| {
