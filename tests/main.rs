@@ -5,6 +5,7 @@
 mod bad_input;
 mod bad_places;
 mod bake;
+mod branches;
 mod common;
 mod config;
 mod conventions;

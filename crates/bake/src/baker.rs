@@ -1,7 +1,7 @@
 //! The trait of all rooms.
 
 use crate::{Array, AttributeKey, BakeError, ColumnKey, FloatRaster, Placed};
-use foliar_plant::{Plant, Raster};
+use foliar_plant::{Branches, LEVELS, Plant, Raster};
 use foliar_schema::Scene;
 use glam::{DVec3, Vec3};
 use serde_json::{Map, Value};
@@ -26,6 +26,8 @@ pub struct Inputs<'a> {
 pub struct Needs {
     /// A plant.
     pub plant: bool,
+    /// The plant's branches: [`Plant::branches`] is there.
+    pub branches: bool,
     /// Names of maps.
     pub maps: &'static [&'static str],
 }
@@ -48,6 +50,34 @@ pub struct Facts {
     pub wood_vertices: usize,
     /// Longest edge of the box around wood and leaves, meters.
     pub size_m: f64,
+    /// What is known of its branches; none until a room has asked for them.
+    pub branches: Option<BranchFacts>,
+}
+
+/// What is known of a plant's branches.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BranchFacts {
+    /// Rows of `foliarBranch`.
+    pub count: usize,
+    /// Levels that there are, those beyond the fourth too.
+    pub levels: usize,
+    /// The longest way from a parent's bark to a tip at each of the levels that a chain names, meters; 0 where
+    /// there is none.
+    pub longest_m: [f64; LEVELS],
+}
+
+impl BranchFacts {
+    /// The facts of some branches.
+    pub fn of(branches: &Branches) -> Self {
+        let mut facts = BranchFacts { count: branches.count(), ..BranchFacts::default() };
+        for (id, row) in branches.rows.iter().enumerate() {
+            facts.levels = facts.levels.max(row.level as usize + 1);
+            if let Some(longest) = facts.longest_m.get_mut(row.level as usize) {
+                *longest = longest.max(branches.axes[id].length() - branches.attachments[id].bark_arc);
+            }
+        }
+        facts
+    }
 }
 
 impl Facts {
@@ -62,6 +92,7 @@ impl Facts {
             leaf_vertices: vertices(foliar_schema::Role::Leaf),
             wood_vertices: vertices(foliar_schema::Role::Wood),
             size_m: plant.size().max_element(),
+            branches: plant.branches().map(BranchFacts::of),
         }
     }
 }

@@ -13,7 +13,9 @@ pub mod reframe;
 mod run;
 
 pub use array::Array;
-pub use baker::{Baked, Baker, Enclose, Facts, Hull, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung};
+pub use baker::{
+    Baked, Baker, BranchFacts, Enclose, Facts, Hull, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung,
+};
 pub use error::BakeError;
 pub use hash::base_hash;
 pub use layer::{AttributeKey, ColumnKey, Layer};

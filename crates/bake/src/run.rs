@@ -65,6 +65,13 @@ pub fn run(
             remedy: "give an OBJ, glTF or GLB file".into(),
         });
     }
+    if baker.needs().branches && inputs.plant.is_none_or(|plant| plant.branches().is_none()) {
+        return Err(BakeError::Needs {
+            room: baker.room().into(),
+            what: "branches",
+            remedy: "find them (foliar_structure::branches) and hand over the plant with them".into(),
+        });
+    }
     if let Some(missing) = baker.needs().maps.iter().find(|m| !inputs.maps.contains_key(**m)) {
         return Err(BakeError::Needs { room: baker.room().into(), what: missing, remedy: "give the map".into() });
     }

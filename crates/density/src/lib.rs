@@ -78,7 +78,7 @@ impl Baker for Density {
     }
 
     fn needs(&self) -> Needs {
-        Needs { plant: true, maps: &[] }
+        Needs { plant: true, ..Needs::default() }
     }
 
     fn require(&self, scene: &Scene, facts: &Facts) -> Requirement {

@@ -113,6 +113,20 @@ pub const CHANNELS: &[Channel] = &[
         doc: "branch that the vertex belongs to, at any depth",
     },
     Channel {
+        name: names::BRANCH_ARC,
+        room: names::ROOM_BRANCHES,
+        width: 1,
+        roles: &[Role::Wood],
+        min: 0.0,
+        max: f32::MAX,
+        unit_length: false,
+        unit: "m, rest frame",
+        visible_step: 1e-3,
+        step_unit: "m",
+        neutral: Neutral::Value(0.0),
+        doc: "way along the axis of the vertex's branch, from its root; the same all around a ring",
+    },
+    Channel {
         name: names::AMBIENT,
         room: names::ROOM_DENSITY,
         width: 1,
@@ -159,8 +173,11 @@ macro_rules! leaf_column {
 
 macro_rules! branch_column {
     ($name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
+        branch_column!(CLASS_BRANCH, $name, $element, $width, $array, $unit, $doc)
+    };
+    ($class:ident, $name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
         Column {
-            class: names::CLASS_BRANCH,
+            class: names::$class,
             name: $name,
             room: names::ROOM_BRANCHES,
             element: Element::$element,
@@ -189,6 +206,16 @@ pub const COLUMNS: &[Column] = &[
         unit: "row of foliarBranch, -1 none",
         doc: "branch that the petiole is nearest to",
     },
+    Column {
+        class: names::CLASS_LEAF,
+        name: "branchArc",
+        room: names::ROOM_BRANCHES,
+        element: Element::F32,
+        width: 1,
+        array: false,
+        unit: "m, rest frame",
+        doc: "way along that branch's axis, from its root, to where the leaf hangs",
+    },
     leaf_column!("crownVolume", I32, 1, "0 or 1", "1 where the row was sampled from a crown volume"),
     branch_column!("parent", I32, 1, false, "row of foliarBranch, -1 none", "branch that it grows from; -1 for a root"),
     branch_column!("level", I32, 1, false, "level", "0 for a stem, else its parent's plus one"),
@@ -205,6 +232,17 @@ pub const COLUMNS: &[Column] = &[
     branch_column!("length", F32, 1, false, "m", "length of its axis"),
     branch_column!("radius", F32, 1, false, "m", "radius at its root"),
     branch_column!("margin", F32, 1, false, "1", "cost of the second-best parent less that of the chosen one"),
+    branch_column!(
+        CLASS_AXIS,
+        "branch",
+        I32,
+        1,
+        false,
+        "row of foliarBranch",
+        "branch whose axis runs through the ring"
+    ),
+    branch_column!(CLASS_AXIS, "offset", F32, 3, false, "m, rest frame", "center of the ring less the branch's pivot"),
+    branch_column!(CLASS_AXIS, "radius", F32, 1, false, "m, rest frame", "radius of the ring"),
 ];
 
 /// The channel of this name.

@@ -21,6 +21,8 @@ pub const METADATA_SCHEMA_ID: &str = "foliar";
 pub const LEAF_ID: &str = "LEAF_ID";
 /// Layer key of branch ids (in files: a feature id attribute with label [`LABEL_BRANCH`]).
 pub const BRANCH_ID: &str = "BRANCH_ID";
+/// Arc length along the branch that the vertex belongs to.
+pub const BRANCH_ARC: &str = "_BRANCH_ARC";
 /// Ambient coefficient k_a (Luft07 eq. 4) or the sky's ambient term.
 pub const AMBIENT: &str = "_AMBIENT";
 /// Realigned normal (Luft07 section 4), unit, in the mesh's own frame.
@@ -31,6 +33,8 @@ pub const CLASS_LEAF: &str = "foliarLeaf";
 
 /// Table class of branches; row = branch id.
 pub const CLASS_BRANCH: &str = "foliarBranch";
+/// Table class of the rings that the axes of branches run through, branch by branch, from root to tip.
+pub const CLASS_AXIS: &str = "foliarBranchAxis";
 
 /// The step that finds roles and leaves.
 pub const ROOM_STRUCTURE: &str = "structure";

@@ -3,6 +3,7 @@
 use crate::cache::Cache;
 use crate::console::Console;
 use crate::gather::Sources;
+use crate::limbs::{self, Limbs};
 use crate::load::{Loaded, load};
 use crate::neighbors::{self, Neighbors};
 use crate::options::{Mode, Options};
@@ -13,10 +14,11 @@ use crate::report::Report;
 use crate::rooms::{self, Room};
 use crate::runner::Product;
 use crate::{Failure, config::Settings};
-use foliar_bake::{Baker, Facts, Inputs, Layer, Maps};
+use foliar_bake::{Baker, Inputs, Layer, Maps};
 use foliar_carrier::{Document, OutputFile};
 use foliar_schema::{Finding, code, names};
 use foliar_view::ViewParams;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What every asset of a run shares.
@@ -49,10 +51,10 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
     }
     let recorded: Vec<String> = loaded.layers.iter().map(|layer| layer.record.room.clone()).collect();
     let only = if baking.again { Some(recorded.as_slice()) } else { baking.only };
-    let rows = plan::make(baking.bakers, &loaded.settings, only, &Facts::of(&loaded.plant))?;
-    report.plan(&rows);
+    let (rows, limbs) = limbs::plan(baking, &mut loaded, only, report)?;
+    report.plan(&rows, limbs.as_ref());
     let neighbors = neighbors::load(baking, &job.input, &loaded, &rows, &stands, report)?;
-    report.text = asked(baking, &loaded, &rows);
+    report.text = asked(baking, &loaded, &rows, limbs.as_ref());
     let surface = baking.options.surface.as_deref();
     if baking.options.mode == Mode::DryRun || job.output.is_none() && surface.is_none() {
         return Ok(Product::Planned);
@@ -62,19 +64,20 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
         report.set("output", path.display().to_string());
     }
     if let Some(output) = &job.output {
-        let rooms = bake_rooms(baking, &loaded, &neighbors, &rows, report)?;
-        files.extend(finish(baking, &loaded, &rows, &rooms, output, report)?);
+        let rooms = bake_rooms(baking, &loaded, limbs.as_ref(), &neighbors, &rows, report)?;
+        let made = Made { branches: limbs.map(|limbs| limbs.layer), rooms };
+        files.extend(finish(baking, &loaded, &rows, &made, output, report)?);
     }
     Ok(Product::Files(files))
 }
 
 /// The roles and the plan for people, where they were asked for.
-fn asked(baking: &Baking, loaded: &Loaded, rows: &[Row]) -> Option<String> {
+fn asked(baking: &Baking, loaded: &Loaded, rows: &[Row], limbs: Option<&Limbs>) -> Option<String> {
     if baking.options.inputs.len() > 1 {
         return None;
     }
     let roles = baking.options.explain_roles.then(|| foliar_structure::explain(&loaded.evidence).trim_end().to_owned());
-    let plan = (baking.options.mode == Mode::DryRun).then(|| plan::table(rows));
+    let plan = (baking.options.mode == Mode::DryRun).then(|| plan::table(rows, limbs));
     let parts: Vec<String> = roles.into_iter().chain(plan).collect();
     (!parts.is_empty()).then(|| parts.join("\n"))
 }
@@ -82,13 +85,14 @@ fn asked(baking: &Baking, loaded: &Loaded, rows: &[Row]) -> Option<String> {
 fn bake_rooms(
     baking: &Baking,
     loaded: &Loaded,
+    limbs: Option<&Limbs>,
     neighbors: &Neighbors,
     rows: &[Row],
     report: &mut Report,
 ) -> Result<Vec<Room>, Failure> {
     let bar = Bar::new(baking.console.draws_progress());
     let cache = baking.options.cache.as_deref().map(Cache::new);
-    let rooms = rooms::bake(loaded, neighbors, rows, cache.as_ref(), &bar)?;
+    let rooms = rooms::bake(loaded, limbs, neighbors, rows, cache.as_ref(), &bar)?;
     report.find(rooms.iter().flat_map(|room| room.findings.iter().cloned()));
     baking.console.log(&report.lap("rooms"));
     Ok(rooms)
@@ -117,57 +121,81 @@ fn enclose(
     Ok(foliar_carrier::encode(&foliar_carrier::hull_document(&hull, "crown"), path)?)
 }
 
+/// What this bake made.
+struct Made {
+    /// The layer of branches, where the plan asked for them.
+    branches: Option<Layer>,
+    rooms: Vec<Room>,
+}
+
+impl Made {
+    fn layers(&self) -> impl Iterator<Item = &Layer> {
+        self.branches.iter().chain(self.rooms.iter().map(|room| &room.layer))
+    }
+}
+
 /// Everything that will be written, the commit last.
 fn finish(
     baking: &Baking,
     loaded: &Loaded,
     rows: &[Row],
-    rooms: &[Room],
+    made: &Made,
     output: &Path,
     report: &mut Report,
 ) -> Result<Vec<OutputFile>, Failure> {
-    let (layers, left_out) = all_layers(loaded, rooms);
+    let (layers, left_out) = all_layers(loaded, made);
     let (document, findings) = foliar_carrier::assemble(&loaded.document, &layers)?;
     report.find(left_out.into_iter().chain(findings));
-    report.rooms(rows, rooms, &document);
+    report.rooms(rows, &made.rooms, &document);
     baking.console.log(&report.lap("assemble"));
     let mut files = Vec::new();
     if let Some(picture) = &baking.options.picture {
         files.push(draw(loaded, &layers, picture)?);
         baking.console.log(&report.lap("picture"));
     }
-    files.extend(main_files(loaded, rooms, &document, output)?);
+    files.extend(main_files(loaded, made, &document, output)?);
     Ok(files)
 }
 
 /// Structure, what was baked now, and what the file held already and still belongs to it; what does
 /// not is left out, with a finding.
-fn all_layers(loaded: &Loaded, rooms: &[Room]) -> (Vec<Layer>, Vec<Finding>) {
+fn all_layers(loaded: &Loaded, made: &Made) -> (Vec<Layer>, Vec<Finding>) {
     let mut layers = vec![loaded.structure.clone()];
-    layers.extend(rooms.iter().map(|room| room.layer.clone()));
-    let structure = loaded.structure.content_hash();
+    layers.extend(made.layers().cloned());
+    let mut hashes = BTreeMap::from([
+        ("base", loaded.base_hash.clone()),
+        (names::ROOM_STRUCTURE, loaded.structure.content_hash()),
+        // Until they are known: what was baked from branches must not stay without them.
+        (names::ROOM_BRANCHES, made.branches.as_ref().map_or(String::new(), Layer::content_hash)),
+    ]);
     let mut findings = Vec::new();
-    let baked = |layer: &&Layer| rooms.iter().any(|room| room.layer.record.room == layer.record.room);
+    let baked = |layer: &&Layer| made.layers().any(|own| own.record.room == layer.record.room);
+    // The order of a file: branches stand before the rooms that read them.
     for layer in loaded.layers.iter().filter(|layer| !baked(layer)) {
         let record = &layer.record;
-        let differs = |name: &str, hash: &String| record.reads.get(name).is_some_and(|read| read != hash);
-        if differs(names::ROOM_STRUCTURE, &structure) || differs("base", &loaded.base_hash) {
-            let text =
-                format!("{} was baked from another base or structure and was left out: run foliar bake", record.room);
+        let differs = |(name, hash): (&&str, &String)| record.reads.get(*name).is_some_and(|read| read != hash);
+        if hashes.iter().any(differs) {
+            let text = format!(
+                "{} was baked from another base, structure or branches and was left out: run foliar bake",
+                record.room
+            );
             findings.push(Finding::new(&code::STALE, text));
-        } else {
-            layers.push(layer.clone());
+            continue;
         }
+        if record.room == names::ROOM_BRANCHES {
+            hashes.insert(names::ROOM_BRANCHES, layer.content_hash());
+        }
+        layers.push(layer.clone());
     }
     (layers, findings)
 }
 
-fn main_files(loaded: &Loaded, rooms: &[Room], document: &Document, output: &Path) -> Result<Vec<OutputFile>, Failure> {
-    match rooms {
+fn main_files(loaded: &Loaded, made: &Made, document: &Document, output: &Path) -> Result<Vec<OutputFile>, Failure> {
+    match made.rooms.as_slice() {
         _ if !outputs::is_layer(output) => outputs::encode(document, output),
-        [] => outputs::encode_layer(&loaded.structure, output),
+        [] => outputs::encode_layer(made.branches.as_ref().unwrap_or(&loaded.structure), output),
         [room] => outputs::encode_layer(&room.layer, output),
-        _ => Err(Failure::usage(format!(
+        rooms => Err(Failure::usage(format!(
             "-o {}: a layer file holds one room, and {} were baked: say which with --only",
             output.display(),
             rooms.len()

@@ -7,7 +7,7 @@ use crate::neighbors;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Command, ValueHint, value_parser};
 use foliar_bake::Baker;
-use foliar_schema::LATER_ROOMS;
+use foliar_schema::{LATER_ROOMS, names};
 use std::path::PathBuf;
 
 /// Which parameters are direct flags of a command; the others go by `--set section.key=value`.
@@ -15,8 +15,8 @@ use std::path::PathBuf;
 pub enum Direct<'a> {
     /// Import, roles and `--quality`.
     Assets,
-    /// Import and roles, and the parameters of one section.
-    Section(&'a str),
+    /// Import and roles, and the parameters of these sections.
+    Sections(&'a [&'a str]),
     /// Import only.
     Import,
     /// Import, and what is packed.
@@ -33,7 +33,7 @@ impl Direct<'_> {
             Direct::Pack => field.section == "import" || field.section == "pack",
             Direct::Alone(section) => field.section == *section,
             Direct::Assets => is_asset(field) || is_shared(field),
-            Direct::Section(section) => is_asset(field) || field.section == *section,
+            Direct::Sections(sections) => is_asset(field) || sections.contains(&field.section.as_str()),
         })
     }
 }
@@ -242,8 +242,9 @@ pub fn with_surface(command: Command, bakers: &[&dyn Baker]) -> Command {
 
 /// `--only ROOM`.
 pub fn only(bakers: &[&dyn Baker]) -> Arg {
-    let rooms: Vec<&'static str> =
-        bakers.iter().filter(|baker| !baker.needs().nothing()).map(|baker| baker.room()).collect();
+    let rooms: Vec<&'static str> = std::iter::once(names::ROOM_BRANCHES)
+        .chain(bakers.iter().filter(|baker| !baker.needs().nothing()).map(|baker| baker.room()))
+        .collect();
     Arg::new("only")
         .long("only")
         .value_name("ROOM")

@@ -10,6 +10,7 @@ mod failure;
 mod finding_formats;
 mod flags;
 mod gather;
+mod limbs;
 mod load;
 mod neighbors;
 mod options;

@@ -2,8 +2,9 @@
 
 use crate::Failure;
 use crate::config::Settings;
+use crate::limbs::Limbs;
 use foliar_bake::{Baker, Facts, Requirement, resolve_params};
-use foliar_schema::{LATER_ROOMS, Scene};
+use foliar_schema::{LATER_ROOMS, Scene, names};
 use serde_json::{Map, Value, json};
 
 /// How fast rooms write, roughly: two cores write about this many bytes of layer a second. An
@@ -107,9 +108,30 @@ fn answer(baker: &dyn Baker, scene: Option<&Scene>, facts: &Facts) -> (bool, Map
     }
 }
 
+/// The step that finds branches, where the plan has it.
+pub struct Branches {
+    /// Why.
+    pub because: String,
+    /// Bytes of its arrays.
+    pub bytes: u64,
+}
+
+/// Why branches are there, and how many bytes they are.
+pub fn branches(rows: &[Row], limbs: &Limbs) -> Branches {
+    let asking: Vec<&str> =
+        rows.iter().filter(|row| row.needed && row.baker.needs().branches).map(|row| row.baker.room()).collect();
+    let because = if asking.is_empty() { "asked for".into() } else { format!("{} needs them", asking.join(", ")) };
+    let arrays = limbs.layer.attributes.values().chain(limbs.layer.columns.values());
+    Branches { because, bytes: arrays.map(|array| array.bytes().len() as u64).sum() }
+}
+
 /// The plan as a table for people, rooms of later versions included.
-pub fn table(rows: &[Row]) -> String {
+pub fn table(rows: &[Row], limbs: Option<&Limbs>) -> String {
     let mut cells = vec![["baker", "needed", "bytes", "seconds", "because"].map(String::from)];
+    if let Some(Branches { because, bytes }) = limbs.map(|limbs| branches(rows, limbs)) {
+        let name = names::ROOM_BRANCHES.into();
+        cells.push([name, "yes".into(), bytes.to_string(), "done".into(), because]);
+    }
     for row in rows {
         cells.push([
             row.baker.room().into(),

@@ -7,15 +7,18 @@ use serde_json::{Map, Value};
 use std::path::Path;
 
 /// Section beside its own that a room's result depends on.
-fn other_section(room: &str) -> &'static str {
-    if room == names::ROOM_STRUCTURE { "roles" } else { "scene" }
+fn other_section(room: &str) -> Option<&'static str> {
+    match room {
+        names::ROOM_STRUCTURE => Some("roles"),
+        names::ROOM_BRANCHES => None,
+        _ => Some("scene"),
+    }
 }
 
 /// What a person gave for a room, as its record keeps it.
 pub fn given(settings: &Settings, room: &str) -> Map<String, Value> {
     let mut given = settings.given(room);
-    let other = other_section(room);
-    if settings.has_section(other) {
+    if let Some(other) = other_section(room).filter(|other| settings.has_section(other)) {
         given.insert(other.into(), settings.given(other).into());
     }
     given
@@ -44,8 +47,8 @@ fn places(record: &Record) -> Vec<(String, Value)> {
     let other = other_section(&record.room);
     let mut places = Vec::new();
     for (name, value) in &record.given {
-        match value.as_object() {
-            Some(section) if name == other => flatten(other, section, &mut places),
+        match (value.as_object(), other) {
+            (Some(section), Some(other)) if name == other => flatten(other, section, &mut places),
             _ => places.push((format!("{}.{name}", record.room), value.clone())),
         }
     }

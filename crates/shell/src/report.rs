@@ -1,7 +1,8 @@
 //! What is said of one asset, filled in as the bake goes on, so that a failed one tells what it knows.
 
+use crate::limbs::Limbs;
 use crate::load::Loaded;
-use crate::plan::Row;
+use crate::plan::{self, Row};
 use crate::rooms::Room;
 use crate::runner::Product;
 use foliar_carrier::{Asset, Document, SourceKind};
@@ -120,8 +121,20 @@ impl Report {
     }
 
     /// The plan.
-    pub fn plan(&mut self, rows: &[Row]) {
-        self.set("plan", rows.iter().map(Row::to_json).collect::<Vec<_>>());
+    pub fn plan(&mut self, rows: &[Row], limbs: Option<&Limbs>) {
+        let step = limbs.map(|limbs| {
+            let plan::Branches { because, bytes } = plan::branches(rows, limbs);
+            let record = &limbs.layer.record;
+            json!({
+                "baker": record.room,
+                "needed": true,
+                "because": because,
+                "parameters": record.resolved,
+                "bytes": bytes,
+                "from": limbs.source,
+            })
+        });
+        self.set("plan", step.into_iter().chain(rows.iter().map(Row::to_json)).collect::<Vec<_>>());
     }
 
     /// What the rooms made, with bytes predicted and bytes in the file.

@@ -1,6 +1,7 @@
 //! Bakes the rooms of a plan, side by side, each from base and structure alone.
 
 use crate::cache::Cache;
+use crate::limbs::Limbs;
 use crate::load::Loaded;
 use crate::neighbors::{Around, Neighbors};
 use crate::plan::Row;
@@ -29,6 +30,7 @@ pub struct Room {
 /// The first room's failure, in the order of the plan.
 pub fn bake(
     loaded: &Loaded,
+    limbs: Option<&Limbs>,
     neighbors: &Neighbors,
     plan: &[Row],
     cache: Option<&Cache>,
@@ -38,9 +40,12 @@ pub fn bake(
         ("base".to_owned(), loaded.base_hash.clone()),
         (names::ROOM_STRUCTURE.to_owned(), loaded.structure.content_hash()),
     ]);
+    let branches = limbs.map(|limbs| (names::ROOM_BRANCHES.to_owned(), limbs.layer.content_hash()));
+    let with_branches: BTreeMap<_, _> = reads.clone().into_iter().chain(branches).collect();
+    let of = |row: &Row| if row.baker.needs().branches { &with_branches } else { &reads };
     let needed: Vec<&Row> = plan.iter().filter(|row| row.needed).collect();
     let baked: Vec<Result<Room, Failure>> =
-        needed.into_par_iter().map(|row| one(loaded, &neighbors.of(row), row, &reads, cache, progress)).collect();
+        needed.into_par_iter().map(|row| one(loaded, &neighbors.of(row), row, of(row), cache, progress)).collect();
     baked.into_iter().collect()
 }
 

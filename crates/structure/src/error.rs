@@ -59,8 +59,10 @@ pub enum StructureError {
         diagonal: f64,
     },
     /// A layer lacks something, or it has another size than the base.
-    #[error("layer structure, {what}: {found}, must be {expected}; bake the structure of this base anew")]
+    #[error("layer {layer}, {what}: {found}, must be {expected}; bake it of this base anew")]
     Layer {
+        /// Which layer.
+        layer: &'static str,
         /// Which array.
         what: String,
         /// What it holds.

@@ -111,6 +111,7 @@ fn integers<'a>(layer: &'a Layer, name: &str, rows: usize) -> Result<&'a [i32], 
 fn misfit(layer: &Layer, name: &str, rows: usize) -> StructureError {
     let found = layer.column(names::CLASS_LEAF, name);
     StructureError::Layer {
+        layer: names::ROOM_STRUCTURE,
         what: format!("column {}/{name}", names::CLASS_LEAF),
         found: found.map_or("missing".into(), |a| format!("{} rows of {}", a.rows(), a.width())),
         expected: format!("{rows} rows, as many as areas, of the contract's type"),
@@ -121,6 +122,7 @@ fn read_ids(layer: &Layer, part: &Part, leaves: usize) -> Result<Vec<u32>, Struc
     let vertices = part.positions.len();
     let place = part.place;
     let error = |found: String, expected: String| StructureError::Layer {
+        layer: names::ROOM_STRUCTURE,
         what: format!("{} of mesh {}, primitive {}", names::LEAF_ID, place.mesh, place.primitive),
         found,
         expected,

@@ -7,7 +7,7 @@ use crate::document::index_of;
 use crate::notes::id_names;
 use foliar_bake::{Array, Layer};
 use foliar_plant::Place;
-use foliar_schema::{Element, channel, column};
+use foliar_schema::{Element, channel, column, names};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -61,7 +61,14 @@ pub(super) fn table_rows(layers: &[&Layer]) -> Result<BTreeMap<String, usize>, C
 /// A record names the layers that it was baked from: they must be these.
 fn reads(layer: &Layer, layers: &[&Layer]) -> Result<(), CarrierError> {
     for (name, hash) in &layer.record.reads {
-        let Some(other) = layers.iter().find(|other| other.record.room == *name) else { continue };
+        let Some(other) = layers.iter().find(|other| other.record.room == *name) else {
+            if name == names::ROOM_BRANCHES {
+                let remedy = "give that layer too (foliar bake --only branches writes it)";
+                let problem = "it was baked from the layer branches, which is not here";
+                return Err(CarrierError::mismatch(&layer.record.room, "", problem, remedy));
+            }
+            continue;
+        };
         let found = other.content_hash();
         if found != *hash {
             let problem = format!("it was baked from the layer {name} {hash}, this one is {found}");

@@ -1,6 +1,7 @@
 //! `foliar bake`, `foliar-import` and `foliar-ROOM`: one road with different rooms on it.
 
 use super::Call;
+use super::tree::room_sections;
 use crate::bake_one::{Baking, bake_one};
 use crate::flags::Direct;
 use crate::gather::Sources;
@@ -17,12 +18,13 @@ pub fn run(call: &Call) -> Result<(), Failure> {
 
 /// `foliar-import`: structure only.
 pub fn import(call: &Call) -> Result<(), Failure> {
-    bake(call, &Options::from(call.matches), Direct::Section("structure"), Some(&[]), false)
+    bake(call, &Options::from(call.matches), Direct::Sections(&["structure"]), Some(&[]), false)
 }
 
 /// `foliar-ROOM`: one room.
 pub fn room(call: &Call, room: &str) -> Result<(), Failure> {
-    bake(call, &Options::from(call.matches), Direct::Section(room), Some(&[room.to_owned()]), false)
+    let sections = room_sections(call.bakers, room);
+    bake(call, &Options::from(call.matches), Direct::Sections(&sections), Some(&[room.to_owned()]), false)
 }
 
 /// Bakes every input. `again` repeats what the files' records say, and nothing else.

@@ -4,6 +4,7 @@ use crate::config::Fields;
 use crate::flags::{self, Direct, Leaves};
 use clap::{Arg, Command, value_parser};
 use foliar_bake::Baker;
+use foliar_schema::names;
 
 /// A program of this house.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,17 +51,23 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
         Program::Foliar => foliar(command, bakers, fields),
         Program::Import => {
             let about = "Reads an OBJ, glTF or GLB, finds wood and leaves, and writes both into a glTF";
-            baking(command.about(about), fields, Direct::Section("structure"))
+            baking(command.about(about), fields, Direct::Sections(&["structure"]))
         }
         Program::Room(room) => {
             let own: Vec<&dyn Baker> = bakers.iter().copied().filter(|baker| baker.room() == room).collect();
             let command = command.about(format!("Bakes one room: {}", about(room)));
-            flags::with_surface(baking(command, fields, Direct::Section(room)), &own)
+            flags::with_surface(baking(command, fields, Direct::Sections(&room_sections(bakers, room))), &own)
         }
         Program::Library(room) => library(command.about(format!("Bakes {}", about(room))), fields, room),
         Program::View => view(command, fields),
         Program::Pack => pack(command, fields),
     }
+}
+
+/// Sections whose parameters are direct flags of a room's program: its own, and that of the branches it needs.
+pub fn room_sections<'a>(bakers: &[&dyn Baker], room: &'a str) -> Vec<&'a str> {
+    let needs = bakers.iter().any(|baker| baker.room() == room && baker.needs().branches);
+    [room].into_iter().chain(needs.then_some(names::ROOM_BRANCHES)).collect()
 }
 
 fn foliar(command: Command, bakers: &[&dyn Baker], fields: &Fields) -> Command {
@@ -166,7 +173,7 @@ fn view(command: Command, fields: &Fields) -> Command {
                 .conflicts_with_all(["sheet", "against"])
                 .help("Draws an animated PNG: the plant turns once in so many pictures, 24 a second"),
         );
-    common(command, fields, Direct::Section("view"), Leaves::Files)
+    common(command, fields, Direct::Sections(&["view"]), Leaves::Files)
 }
 
 fn pack(command: Command, fields: &Fields) -> Command {
@@ -194,7 +201,7 @@ mod tests {
     fn every_direct_parameter_has_a_flag_with_help_and_no_default() {
         let fields = Fields::new(&[]).unwrap();
         let command = commands(&Program::View, &[], &fields);
-        for field in Direct::Section("view").fields(&fields) {
+        for field in Direct::Sections(&["view"]).fields(&fields) {
             let arg = command.get_arguments().find(|arg| arg.get_id().as_str() == field.dotted());
             let arg = arg.unwrap_or_else(|| panic!("{} has no flag", field.dotted()));
             assert!(arg.get_help().is_some(), "{}", field.dotted());

@@ -23,7 +23,7 @@ const FRAMES_PER_SECOND: u16 = 24;
 pub fn run(call: &Call) -> Result<(), Failure> {
     let options = Options::from(call.matches);
     let console = options.console();
-    let sources = Sources::new(call, Direct::Section("view"))?;
+    let sources = Sources::new(call, Direct::Sections(&["view"]))?;
     let (input, output) = files(&options)?;
     let wanted = Wanted::from(call.matches);
     let job = Job { input, output: Some(output.clone()) };

@@ -2,7 +2,7 @@
 //! struct field, and flags, environment names, file keys and help texts come from here.
 
 use foliar_bake::Baker;
-use foliar_schema::{Import, Pack, Roles, Scene};
+use foliar_schema::{Import, Pack, Roles, Scene, names};
 use serde_json::{Value, json};
 
 /// What a parameter holds.
@@ -111,6 +111,7 @@ impl Fields {
         fields.add("import", schemars::schema_for!(Import).to_value())?;
         fields.add("roles", schemars::schema_for!(Roles).to_value())?;
         fields.add("structure", schemars::schema_for!(foliar_structure::StructureParams).to_value())?;
+        fields.add(names::ROOM_BRANCHES, schemars::schema_for!(foliar_structure::branches::BranchParams).to_value())?;
         fields.add("scene", schemars::schema_for!(Scene).to_value())?;
         fields.add("pack", schemars::schema_for!(Pack).to_value())?;
         fields.add("view", foliar_view::ViewParams::schema())?;

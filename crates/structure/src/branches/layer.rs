@@ -1,4 +1,5 @@
-//! Branches -> layer `branches`: ids on wood, table `foliarBranch`, and the column of leaves that names theirs.
+//! Branches -> layer `branches`: ids and arcs on wood, tables `foliarBranch` and `foliarBranchAxis`, and the columns of
+//! leaves that say where they hang. All that a room may ask of branches can be read back from it.
 
 use super::VERSION;
 use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
@@ -15,13 +16,15 @@ pub fn to_layer(branches: &Branches, base: &Base, facts: &Structure, structure: 
     let wood =
         base.parts.iter().zip(&facts.roles).zip(&branches.vertices).filter(|((_, role), _)| **role == Role::Wood);
     for ((part, _), list) in wood.filter(|_| branches.count() > 0) {
-        let key = AttributeKey { place: part.place, name: names::BRANCH_ID.into() };
-        attributes.insert(key, Array::scalars(ids(list, part.positions.len(), branches.count())));
+        let vertices = part.positions.len();
+        let key = |name: &str| AttributeKey { place: part.place, name: name.into() };
+        attributes.insert(key(names::BRANCH_ID), Array::scalars(ids(list, vertices, branches.count())));
+        attributes.insert(key(names::BRANCH_ARC), Array::scalars(arcs(list, vertices)));
     }
     let columns = if branches.count() == 0 { BTreeMap::new() } else { columns(branches) };
     let mut writes: Vec<String> = columns.keys().map(|k| format!("{}/{}", k.class, k.property)).collect();
     if !attributes.is_empty() {
-        writes.push(names::BRANCH_ID.into());
+        writes.extend([names::BRANCH_ID, names::BRANCH_ARC].map(String::from));
     }
     writes.sort();
     let reads = [("base", foliar_bake::base_hash(base)), (names::ROOM_STRUCTURE, structure.to_string())];
@@ -42,6 +45,10 @@ pub fn to_layer(branches: &Branches, base: &Base, facts: &Structure, structure: 
 fn ids(list: &[OnBranch], vertices: usize, null: usize) -> Vec<f32> {
     let id = |place: &OnBranch| if place.branch == NO_BRANCH { null as f32 } else { place.branch as f32 };
     if list.is_empty() { vec![null as f32; vertices] } else { list.iter().map(id).collect() }
+}
+
+fn arcs(list: &[OnBranch], vertices: usize) -> Vec<f32> {
+    if list.is_empty() { vec![0.0; vertices] } else { list.iter().map(|place| place.arc).collect() }
 }
 
 /// -1 where there is none.
@@ -71,10 +78,29 @@ fn columns(branches: &Branches) -> BTreeMap<ColumnKey, Array> {
     if !branches.leaves.is_empty() {
         let of_leaf = branches.leaves.iter().map(|place| signed(place.branch)).collect();
         columns.insert(key(names::CLASS_LEAF, "branch"), Array::integers(of_leaf));
+        let arcs = branches.leaves.iter().map(|place| place.arc).collect();
+        columns.insert(key(names::CLASS_LEAF, "branchArc"), Array::scalars(arcs));
     }
+    columns.extend(axis_columns(branches));
     columns
 }
 
-fn key(class: &str, property: &str) -> ColumnKey {
+/// Rings of all axes. Offsets from pivots, not places: far from the scene's origin a float holds them better.
+fn axis_columns(branches: &Branches) -> [(ColumnKey, Array); 3] {
+    let (mut owners, mut offsets, mut radii) = (Vec::new(), Vec::new(), Vec::new());
+    for (id, (axis, row)) in branches.axes.iter().zip(&branches.rows).enumerate() {
+        owners.extend(axis.points.iter().map(|_| id as i32));
+        offsets.extend(axis.points.iter().map(|p| (*p - row.pivot.as_dvec3()).as_vec3()));
+        radii.extend(axis.radii.iter().map(|r| *r as f32));
+    }
+    let key = |name| key(names::CLASS_AXIS, name);
+    [
+        (key("branch"), Array::integers(owners)),
+        (key("offset"), Array::vectors(&offsets)),
+        (key("radius"), Array::scalars(radii)),
+    ]
+}
+
+pub(super) fn key(class: &str, property: &str) -> ColumnKey {
     ColumnKey { class: class.into(), property: property.into() }
 }

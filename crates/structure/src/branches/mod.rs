@@ -16,6 +16,7 @@ mod limits;
 mod literal;
 mod mesh;
 mod params;
+mod read;
 mod tube;
 
 pub use accuracy::{Accuracy, Truth, Wrong};
@@ -23,6 +24,7 @@ pub use find::find;
 pub use hang::continues;
 pub use layer::to_layer;
 pub use params::{BranchParams, Continuation, Method};
+pub use read::from_layer;
 
 use foliar_plant::Branches;
 
