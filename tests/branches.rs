@@ -134,6 +134,31 @@ fn layers_of_branches_and_density_come_together_in_any_order() {
 }
 
 #[test]
+fn the_report_names_every_branch_and_the_terminal_the_doubtful_ones() {
+    let here = folder();
+    let (tree, out) = (tree(here.path(), "islands"), output("branches-islands.glb"));
+    let (done, _) = bake(&tree, &out, &["--only", "branches"]);
+    done.expect(0, &["BRANCH-ISLAND", "5 of", "\"trunk\""]);
+    let told = |file: &Path| -> Value {
+        let report = std::fs::read(file.with_extension("report.json")).unwrap();
+        let report: Value = serde_json::from_slice(&report).unwrap();
+        if report["branches"].is_null() { report["assets"][0]["branches"].clone() } else { report["branches"].clone() }
+    };
+    let first = told(&out);
+    assert_eq!(first["islands"].as_array().unwrap().len(), 5);
+    assert_eq!(first["branches"].as_array().unwrap().len(), first["count"].as_u64().unwrap() as usize);
+    assert!(first["metrics"]["roughness"]["p99"].as_f64().unwrap() < 0.3);
+    // A master says the same of the branches that it holds.
+    let again = output("branches-islands-again.glb");
+    let (done, _) = bake(&out, &again, &["--only", "branches"]);
+    done.expect(0, &["BRANCH-ISLAND"]);
+    let mut second = told(&again);
+    assert_eq!(second["from"], "file");
+    second["from"] = "found".into();
+    assert_eq!(first, second);
+}
+
+#[test]
 fn branches_are_taken_from_the_cache() {
     let here = folder();
     tree(here.path(), "clean");

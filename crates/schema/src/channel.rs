@@ -233,6 +233,19 @@ pub const COLUMNS: &[Column] = &[
     branch_column!("radius", F32, 1, false, "m", "radius at its root"),
     branch_column!("margin", F32, 1, false, "1", "cost of the second-best parent less that of the chosen one"),
     branch_column!(
+        "cost",
+        F32,
+        1,
+        false,
+        "1",
+        "cost of the chosen parent: gap, distance from its axis, thickness, taper"
+    ),
+    branch_column!("gap", F32, 1, false, "radii of the branch", "distance between its bark and its parent's"),
+    branch_column!("kind", I32, 1, false, "0, 1 or 2", "0 hangs on another, 1 stands on the ground, 2 is an island"),
+    branch_column!("roughness", F32, 1, false, "1", "mean deviation of its rings from circles, over their radius"),
+    branch_column!("split", F32, 1, false, "1", "share of its rings that fall into several parts: it is fused"),
+    branch_column!("tubes", I32, 1, false, "tubes", "tubes end to end that it was joined from"),
+    branch_column!(
         CLASS_AXIS,
         "branch",
         I32,

@@ -30,6 +30,10 @@ macro_rules! codes {
 }
 
 codes! {
+    BRANCH_FUSED = "BRANCH-FUSED", Warning, "Wood in one piece forks: its branches were told apart by the shape of the surface, or were not (branches.method); separate tubes are surer.";
+    BRANCH_ISLAND = "BRANCH-ISLAND", Warning, "Wood that nothing bears and that does not stand on the ground: move it to its parent, or name its part --other.";
+    BRANCH_LEVELS = "BRANCH-LEVELS", Note, "More than four levels of branches: those beyond move as their ancestor of the fourth does.";
+    BRANCH_UNSURE = "BRANCH-UNSURE", Note, "A branch might as well hang elsewhere: look at it in the report, and move its root closer to its parent if it is wrong.";
     IMPORT_BUMP = "IMPORT-BUMP", Note, "A bump map was converted to a normal map, or recognised as one.";
     IMPORT_DEGENERATE = "IMPORT-DEGENERATE", Note, "Triangles without area, or vertices that no triangle uses, were kept in the base and ignored.";
     IMPORT_ENCODING = "IMPORT-ENCODING", Note, "The text was not UTF-8 and was read as Latin-1, or carried a byte order mark.";

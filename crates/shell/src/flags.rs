@@ -242,9 +242,8 @@ pub fn with_surface(command: Command, bakers: &[&dyn Baker]) -> Command {
 
 /// `--only ROOM`.
 pub fn only(bakers: &[&dyn Baker]) -> Arg {
-    let rooms: Vec<&'static str> = std::iter::once(names::ROOM_BRANCHES)
-        .chain(bakers.iter().filter(|baker| !baker.needs().nothing()).map(|baker| baker.room()))
-        .collect();
+    let of_trees = bakers.iter().filter(|baker| !baker.needs().nothing()).map(|baker| baker.room());
+    let rooms: Vec<&'static str> = of_trees.chain([names::ROOM_BRANCHES]).collect();
     Arg::new("only")
         .long("only")
         .value_name("ROOM")

@@ -9,7 +9,7 @@ use crate::report::Report;
 use crate::{Failure, record};
 use foliar_bake::{Facts, Layer};
 use foliar_plant::Base;
-use foliar_schema::{Finding, Role, names};
+use foliar_schema::{Role, names};
 use foliar_structure::branches::{self, BranchParams};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -18,8 +18,6 @@ use std::collections::BTreeMap;
 pub struct Limbs {
     /// The layer.
     pub layer: Layer,
-    /// What was noticed when they were found.
-    pub findings: Vec<Finding>,
     /// `found`, `file` or `cache`.
     pub source: &'static str,
 }
@@ -40,9 +38,13 @@ pub fn plan<'a>(
     }
     let limbs = limbs(baking, loaded)?;
     let found = branches::from_layer(&limbs.layer, loaded.plant.base(), loaded.plant.leaves().len())?;
-    let plant = std::mem::take(&mut loaded.plant).with_branches(found);
+    report.find(branches::findings(&found, loaded.plant.base()));
+    let mut told = branches::report(&found, &loaded.plant);
+    told["from"] = limbs.source.into();
+    told["method"] = limbs.layer.record.resolved["method"].clone();
+    report.set(names::ROOM_BRANCHES, told);
+    let plant = std::mem::take(&mut loaded.plant).with_branches(found.branches);
     loaded.plant = plant.map_err(|e| Failure::Input(e.to_string()))?;
-    report.find(limbs.findings.iter().cloned());
     baking.console.log(&report.lap("branches"));
     let rows = plan::make(baking.bakers, &loaded.settings, only, &Facts::of(&loaded.plant))?;
     // What they told may have made a room unnecessary.
@@ -64,25 +66,26 @@ fn limbs(baking: &Baking, loaded: &Loaded) -> Result<Limbs, Failure> {
     let given = record::given(&loaded.settings, names::ROOM_BRANCHES);
     let own = loaded.layers.iter().find(|layer| layer.record.room == names::ROOM_BRANCHES);
     if let Some(own) = own.filter(|own| still_valid(own, &given, &reads)) {
-        return Ok(Limbs { layer: own.clone(), findings: Vec::new(), source: "file" });
+        return Ok(Limbs { layer: own.clone(), source: "file" });
     }
     let params: BranchParams = loaded.settings.section(names::ROOM_BRANCHES)?;
     let resolved = json!(params).as_object().cloned().unwrap_or_default();
     let cache = baking.options.cache.as_deref().map(Cache::new);
     let key = with_connectivity(&resolved, loaded);
     let kept = cache.as_ref().and_then(|c| c.get(names::ROOM_BRANCHES, branches::VERSION, &key, &reads));
-    let (mut layer, findings, source) = match kept {
-        Some((layer, findings)) => (layer, findings, "cache"),
+    let (mut layer, source) = match kept {
+        Some((layer, _)) => (layer, "cache"),
         None => {
-            let (layer, findings) = find(loaded, &params, resolved)?;
+            let layer = find(loaded, &params, resolved)?;
             if let Some(cache) = &cache {
-                cache.put(&layer, &key, &findings)?;
+                // Findings follow from the layer.
+                cache.put(&layer, &key, &[])?;
             }
-            (layer, findings, "found")
+            (layer, "found")
         }
     };
     layer.record.given = given;
-    Ok(Limbs { layer, findings, source })
+    Ok(Limbs { layer, source })
 }
 
 /// Whether a master's own branches are what finding them with these settings stands for. They know which vertices
@@ -100,16 +103,12 @@ fn still_valid(layer: &Layer, given: &Map<String, Value>, reads: &BTreeMap<Strin
         && record.writes.iter().all(whole)
 }
 
-fn find(
-    loaded: &Loaded,
-    params: &BranchParams,
-    resolved: Map<String, Value>,
-) -> Result<(Layer, Vec<Finding>), Failure> {
+fn find(loaded: &Loaded, params: &BranchParams, resolved: Map<String, Value>) -> Result<Layer, Failure> {
     let (base, structure) = (loaded.plant.base(), loaded.plant.structure());
     let found = branches::find(base, structure, params)?;
-    let mut layer = branches::to_layer(&found.branches, base, structure, &loaded.structure.content_hash());
+    let mut layer = branches::to_layer(&found, base, structure, &loaded.structure.content_hash());
     layer.record.resolved = resolved;
-    Ok((layer, Vec::new()))
+    Ok(layer)
 }
 
 /// Parameters, and a hash of what else branches depend on that no other hash holds: which vertices of the wood the

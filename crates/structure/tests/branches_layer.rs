@@ -6,14 +6,14 @@ use foliar_bake::{Array, ColumnKey, Layer};
 use foliar_plant::sample::{hard_tree, odd_plants};
 use foliar_plant::{Branches, Plant};
 use foliar_schema::{COLUMNS, Element, names};
-use foliar_structure::branches::{from_layer, to_layer};
+use foliar_structure::branches::{BranchReport, Found, from_layer, to_layer};
 
 #[test]
 fn layers_of_odd_plants_say_what_their_branches_are() {
     for sample in odd_plants() {
         let plant = &sample.plant;
         let Some(branches) = plant.branches() else { continue };
-        let layer = to_layer(branches, plant.base(), plant.structure(), "hash");
+        let layer = layer_of(plant);
         let integers = |class, name| layer.column(class, name).and_then(|a| a.as_i32());
         for key in layer.columns.keys() {
             let column = COLUMNS.iter().find(|c| c.class == key.class && c.name == key.property).unwrap();
@@ -39,11 +39,16 @@ fn layers_of_odd_plants_say_what_their_branches_are() {
 }
 
 fn layer_of(plant: &Plant) -> Layer {
-    to_layer(plant.branches().unwrap(), plant.base(), plant.structure(), "hash")
+    let branches = plant.branches().unwrap().clone();
+    let reports = vec![BranchReport { margin: 100.0, gap: 0.5, tubes: 2, ..BranchReport::default() }; branches.count()];
+    to_layer(&Found { branches, reports }, plant.base(), plant.structure(), "hash")
 }
 
 fn back(layer: &Layer, plant: &Plant) -> Branches {
-    from_layer(layer, plant.base(), plant.leaves().len()).unwrap()
+    let found = from_layer(layer, plant.base(), plant.leaves().len()).unwrap();
+    let margins = found.branches.rows.iter().map(|row| f64::from(row.margin));
+    assert!(found.reports.iter().zip(margins).all(|(r, margin)| (r.gap, r.tubes, r.margin) == (0.5, 2, margin)));
+    found.branches
 }
 
 #[test]
@@ -91,6 +96,7 @@ fn a_layer_that_does_not_fit_is_refused_by_name() {
         (names::CLASS_AXIS, "branch", Some(Array::integers(vec![0; rings]))),
         (names::CLASS_AXIS, "radius", None),
         (names::CLASS_LEAF, "branchArc", None),
+        (names::CLASS_BRANCH, "kind", None),
     ] {
         let said = spoiled(class, property, array);
         assert!(said.contains("layer branches") && said.contains(class), "{property}: {said}");

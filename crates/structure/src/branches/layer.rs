@@ -1,7 +1,7 @@
 //! Branches -> layer `branches`: ids and arcs on wood, tables `foliarBranch` and `foliarBranchAxis`, and the columns of
 //! leaves that say where they hang. All that a room may ask of branches can be read back from it.
 
-use super::VERSION;
+use super::{BranchReport, Found, VERSION};
 use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
 use foliar_plant::{Base, Branch, Branches, NO_BRANCH, OnBranch, Structure};
 use foliar_schema::{Record, Role, names};
@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 
 /// The layer of a plant's branches. `structure` is the content hash of the layer that they were found with;
 /// `given` and `resolved` of the record are left empty. Where there are no branches the layer is empty.
-pub fn to_layer(branches: &Branches, base: &Base, facts: &Structure, structure: &str) -> Layer {
+pub fn to_layer(found: &Found, base: &Base, facts: &Structure, structure: &str) -> Layer {
+    let branches = &found.branches;
     let mut attributes = BTreeMap::new();
     let wood =
         base.parts.iter().zip(&facts.roles).zip(&branches.vertices).filter(|((_, role), _)| **role == Role::Wood);
@@ -21,7 +22,7 @@ pub fn to_layer(branches: &Branches, base: &Base, facts: &Structure, structure: 
         attributes.insert(key(names::BRANCH_ID), Array::scalars(ids(list, vertices, branches.count())));
         attributes.insert(key(names::BRANCH_ARC), Array::scalars(arcs(list, vertices)));
     }
-    let columns = if branches.count() == 0 { BTreeMap::new() } else { columns(branches) };
+    let columns = if branches.count() == 0 { BTreeMap::new() } else { columns(found) };
     let mut writes: Vec<String> = columns.keys().map(|k| format!("{}/{}", k.class, k.property)).collect();
     if !attributes.is_empty() {
         writes.extend([names::BRANCH_ID, names::BRANCH_ARC].map(String::from));
@@ -56,8 +57,8 @@ fn signed(branch: u32) -> i32 {
     if branch == NO_BRANCH { -1 } else { branch as i32 }
 }
 
-fn columns(branches: &Branches) -> BTreeMap<ColumnKey, Array> {
-    let rows = &branches.rows;
+fn columns(found: &Found) -> BTreeMap<ColumnKey, Array> {
+    let (branches, rows) = (&found.branches, &found.branches.rows);
     let vectors = |get: fn(&Branch) -> Vec3| Array::vectors(&rows.iter().map(get).collect::<Vec<_>>());
     let scalars = |get: fn(&Branch) -> f32| Array::scalars(rows.iter().map(get).collect());
     let integers = |get: fn(&Branch) -> i32| Array::integers(rows.iter().map(get).collect());
@@ -82,7 +83,23 @@ fn columns(branches: &Branches) -> BTreeMap<ColumnKey, Array> {
         columns.insert(key(names::CLASS_LEAF, "branchArc"), Array::scalars(arcs));
     }
     columns.extend(axis_columns(branches));
+    columns.extend(report_columns(&found.reports));
     columns
+}
+
+/// How each branch came to its parent.
+fn report_columns(reports: &[BranchReport]) -> [(ColumnKey, Array); 6] {
+    let scalars = |get: fn(&BranchReport) -> f64| Array::scalars(reports.iter().map(|r| get(r) as f32).collect());
+    let integers = |get: fn(&BranchReport) -> i32| Array::integers(reports.iter().map(get).collect());
+    [
+        ("cost", scalars(|r| r.cost)),
+        ("gap", scalars(|r| r.gap)),
+        ("kind", integers(|r| r.kind as i32)),
+        ("roughness", scalars(|r| r.roughness)),
+        ("split", scalars(|r| r.split)),
+        ("tubes", integers(|r| r.tubes as i32)),
+    ]
+    .map(|(name, array)| (key(names::CLASS_BRANCH, name), array))
 }
 
 /// Rings of all axes. Offsets from pivots, not places: far from the scene's origin a float holds them better.

@@ -17,6 +17,7 @@ mod literal;
 mod mesh;
 mod params;
 mod read;
+mod report;
 mod tube;
 
 pub use accuracy::{Accuracy, Truth, Wrong};
@@ -25,11 +26,12 @@ pub use hang::continues;
 pub use layer::to_layer;
 pub use params::{BranchParams, Continuation, Method};
 pub use read::from_layer;
+pub use report::{findings, report};
 
 use foliar_plant::Branches;
 
 /// Version of the step: it changes when results change.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What was found, and how sure it is.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +50,7 @@ pub struct BranchReport {
     /// Cost of its parent.
     pub cost: f64,
     /// Cost of the second-best parent less that; low means that it might as well hang there; infinite where there
-    /// is no second.
+    /// is no second (from a layer: [`foliar_plant::LARGEST_MARGIN`]).
     pub margin: f64,
     /// Distance between its bark and its parent's, in its own radii.
     pub gap: f64,
@@ -70,4 +72,24 @@ pub enum RootKind {
     Stem,
     /// Neither: nothing is near it.
     Island,
+}
+
+impl RootKind {
+    /// What the column `kind` says.
+    fn of(number: i32) -> RootKind {
+        match number {
+            1 => RootKind::Stem,
+            2 => RootKind::Island,
+            _ => RootKind::Branch,
+        }
+    }
+
+    /// One word for reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            RootKind::Branch => "branch",
+            RootKind::Stem => "stem",
+            RootKind::Island => "island",
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Layer `branches` -> branches, as every room gets them: what a master gives back is what a first bake was made from.
 
+use super::{BranchReport, Found, RootKind};
 use crate::StructureError;
 use foliar_bake::{Array, Layer};
 use foliar_plant::{Attachment, Axis, Base, Branch, Branches, LEVELS, NO_BRANCH, OnBranch, Part};
@@ -10,7 +11,7 @@ use glam::Vec3;
 ///
 /// # Errors
 /// [`StructureError::Layer`] where the layer does not fit the base.
-pub fn from_layer(layer: &Layer, base: &Base, leaves: usize) -> Result<Branches, StructureError> {
+pub fn from_layer(layer: &Layer, base: &Base, leaves: usize) -> Result<Found, StructureError> {
     let reader = Reader { layer };
     let rows = reader.rows()?;
     let axes = reader.axes(&rows)?;
@@ -21,7 +22,8 @@ pub fn from_layer(layer: &Layer, base: &Base, leaves: usize) -> Result<Branches,
     let attachments = axes.iter().zip(&rows).map(attachment).collect();
     let vertices = base.parts.iter().map(|part| reader.vertices(part, rows.len())).collect::<Result<_, _>>()?;
     let leaves = reader.leaves(leaves, !rows.is_empty())?;
-    Ok(Branches { rows, axes, attachments, vertices, leaves })
+    let reports = reader.reports(&rows)?;
+    Ok(Found { branches: Branches { rows, axes, attachments, vertices, leaves }, reports })
 }
 
 struct Reader<'a> {
@@ -50,6 +52,27 @@ impl Reader<'_> {
             margin: margin[b],
         };
         Ok((0..count).map(row).collect())
+    }
+
+    fn reports(&self, rows: &[Branch]) -> Result<Vec<BranchReport>, StructureError> {
+        if rows.is_empty() {
+            return Ok(Vec::new());
+        }
+        let (class, count) = (names::CLASS_BRANCH, rows.len());
+        let [cost, gap, roughness, split] =
+            ["cost", "gap", "roughness", "split"].map(|name| self.floats(class, name, 1, count));
+        let (cost, gap, roughness, split) = (cost?, gap?, roughness?, split?);
+        let (kind, tubes) = (self.integers(class, "kind", 1, count)?, self.integers(class, "tubes", 1, count)?);
+        let report = |b: usize| BranchReport {
+            kind: RootKind::of(kind[b]),
+            cost: cost[b].into(),
+            margin: rows[b].margin.into(),
+            gap: gap[b].into(),
+            roughness: roughness[b].into(),
+            split: split[b].into(),
+            tubes: tubes[b].try_into().unwrap_or(0),
+        };
+        Ok((0..count).map(report).collect())
     }
 
     fn axes(&self, rows: &[Branch]) -> Result<Vec<Axis>, StructureError> {
