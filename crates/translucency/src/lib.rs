@@ -1,7 +1,9 @@
 //! Leaf translucency: light that passes through a leaf, as three coefficients per texel (Kusternig07 section 3.5, Habel07).
 
 mod fit_rt;
+mod kernel;
 pub mod light;
+pub mod map;
 mod presets;
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 mod fits;
 mod lights;
+mod maps;
 mod slabs;
 
 use serde_json::Value;

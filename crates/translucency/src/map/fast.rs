@@ -1,0 +1,97 @@
+//! The bank of Gaussians over a whole map: rows are independent, so any number of threads gives the same bytes.
+
+use super::pyramid::Image;
+use super::{LeafMap, Tables};
+use crate::light::BASIS;
+use rayon::prelude::*;
+
+/// Rows that one task takes.
+const ROWS: usize = 8;
+
+/// Coefficients of every texel (three, interleaved), row by row; zero where there is no leaf.
+pub fn coefficient_map(map: &LeafMap, tables: &Tables) -> Vec<f32> {
+    let mut levels = vec![entered(map, tables)];
+    let deepest = tables.bank.filters.iter().map(|filter| filter.level).max().unwrap_or(0);
+    for level in 0..deepest {
+        let next = levels[level].halved();
+        levels.push(next);
+    }
+    // Filters of halved images run first: they are small. Those of the full image run row by row.
+    let wide: Vec<Option<Image>> = tables
+        .bank
+        .filters
+        .iter()
+        .map(|filter| (filter.level > 0).then(|| levels[filter.level].filtered(&filter.x, &filter.y)))
+        .collect();
+    levels.truncate(1);
+    let full = &levels[0];
+    let mut out = vec![0.0; map.width * map.height * 3];
+    out.par_chunks_mut(map.width.max(1) * 3 * ROWS).enumerate().for_each_init(Rows::default, |rows, (block, out)| {
+        for (i, out) in out.chunks_exact_mut(map.width * 3).enumerate() {
+            rows.mix(map, tables, (full, &wide), block * ROWS + i, out);
+        }
+    });
+    out
+}
+
+/// What every texel takes in, as coefficients over the transmittance from straight ahead.
+fn entered(map: &LeafMap, tables: &Tables) -> Image {
+    let basis = BASIS.map(|b| b.as_vec3());
+    let mut data = vec![0.0f32; map.width * map.height * 3];
+    data.par_chunks_mut(map.width.max(1) * 3).enumerate().for_each(|(y, row)| {
+        for (x, texel) in row.chunks_exact_mut(3).enumerate() {
+            let at = y * map.width + x;
+            let d = map.thickness_mm[at];
+            if d > 0.0 {
+                let [nx, ny, nz] = map.normal(at);
+                let [tilt, axis] = tables.source(d, nz);
+                (0..3).for_each(|c| texel[c] = tilt * (basis[c].x * nx + basis[c].y * ny) + axis * basis[c].z);
+            }
+        }
+    });
+    Image::new(map.width, map.height, data)
+}
+
+/// Room for the rows of one task.
+#[derive(Default)]
+struct Rows {
+    padded: Vec<f32>,
+    filters: Vec<Vec<f32>>,
+}
+
+impl Rows {
+    fn mix(
+        &mut self,
+        map: &LeafMap,
+        tables: &Tables,
+        (full, wide): (&Image, &[Option<Image>]),
+        y: usize,
+        out: &mut [f32],
+    ) {
+        let thickness = &map.thickness_mm[y * map.width..(y + 1) * map.width];
+        if thickness.iter().all(|d| *d <= 0.0) {
+            return;
+        }
+        self.filters.resize_with(wide.len(), Vec::new);
+        for (j, filter) in tables.bank.filters.iter().enumerate().skip(1) {
+            let row = &mut self.filters[j];
+            match &wide[j] {
+                Some(image) => {
+                    row.resize(out.len(), 0.0);
+                    image.drawn_up(y, &mut self.padded, row);
+                }
+                None => full.filtered_row(y, &filter.x, &filter.y, &mut self.padded, row),
+            }
+        }
+        for (x, d) in thickness.iter().enumerate().filter(|(_, d)| **d > 0.0) {
+            let (low, high, share) = tables.mix(*d);
+            let weight = |j: usize| low[j] + share * (high[j] - low[j]);
+            let texel = &mut out[3 * x..3 * x + 3];
+            (0..3).for_each(|c| texel[c] = weight(0) * full.row(y)[3 * x + c]);
+            for j in 1..wide.len() {
+                let (w, row) = (weight(j), &self.filters[j][3 * x..3 * x + 3]);
+                (0..3).for_each(|c| texel[c] += w * row[c]);
+            }
+        }
+    }
+}

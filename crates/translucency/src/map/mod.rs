@@ -1,0 +1,13 @@
+//! From a map of thickness and normals to a map of coefficients.
+
+mod fast;
+mod leaf;
+mod pyramid;
+mod recipe;
+pub mod reference;
+mod tables;
+
+pub use fast::coefficient_map;
+pub use leaf::{LEAST_THICKNESS_MM, LeafMap};
+pub use recipe::{Model, Recipe, Spreading, Tissue};
+pub use tables::Tables;
