@@ -127,14 +127,19 @@ fn swept_sky(
     None
 }
 
-/// Densities, the unit they are judged in, the error of k_a, and the lattice points per radius that keep the
-/// promise; 0 where the field is exact.
+/// Densities, the unit they are judged in, the error of k_a, that of the density of the plant's own balls
+/// ([`measure::relative`]), and the lattice points per radius that keep the promise; 0 where the field is exact.
 pub(crate) struct ChosenField {
     pub densities: Vec<f32>,
     pub unit: f64,
     pub error: MeasuredError,
+    pub relative: f64,
     pub points: f64,
 }
+
+/// Error of the density that goes with one visible step of k_a, relative to itself, rms: k_a hides what happens to
+/// dark places, on which every density beyond the darkest looks the same.
+const RELATIVE_PER_STEP: f64 = 0.005;
 
 /// The density at all queries, for k_a. The plant's own balls alone decide how it is computed, so that neighbors
 /// change neither its unit nor, where they do not reach, any bit; theirs are summed one by one.
@@ -150,7 +155,7 @@ pub(crate) fn field(foliage: &Foliage, queries: &[Query], params: &Params, most:
         let densities = field.densities(queries);
         let fast: Vec<f32> = at.iter().map(|&at| densities[at]).collect();
         let error = measure::luft(&fast, &exact, unit, params);
-        ChosenField { densities, unit, error, points: 0.0 }
+        ChosenField { densities, unit, error, relative: measure::relative(&fast, &exact), points: 0.0 }
     });
     let near = foliage.neighbors_near(queries);
     if !near.is_empty() {
@@ -173,7 +178,7 @@ fn splined_field(
     (places, exact, dear): (&[Query], &[f64], f64),
 ) -> Option<ChosenField> {
     let asked = (queries.len() + foliage.own) as f64;
-    let mut climb = Climb::new(2.5, 4.0, params.quality());
+    let (quality, mut climb) = (params.quality(), Climb::new(2.5, 6.0, params.quality()));
     for points in RUNGS {
         let lattice = Lattice::around(foliage.own(), foliage.radius, points, most);
         let splat = foliage.own as f64 * cost::SPLAT + lattice.points() as f64 * cost::POINT;
@@ -182,11 +187,16 @@ fn splined_field(
         }
         if climb.may_keep(points) {
             let coarse = Coarse::new(foliage.own(), foliage.radius, points, most);
-            let unit = density_unit(foliage, params, |queries| coarse.densities(queries));
-            let error = measure::luft(&coarse.densities(places), exact, unit, params);
-            let factor = error.rms_steps / params.quality();
+            let fast = coarse.densities(places);
+            let relative = measure::relative(&fast, exact);
+            let mut factor = relative / (RELATIVE_PER_STEP * quality);
             if factor <= 1.0 {
-                return Some(ChosenField { densities: coarse.densities(queries), unit, error, points });
+                let unit = density_unit(foliage, params, |queries| coarse.densities(queries));
+                let error = measure::luft(&fast, exact, unit, params);
+                factor = error.rms_steps / quality;
+                if factor <= 1.0 {
+                    return Some(ChosenField { densities: coarse.densities(queries), unit, error, relative, points });
+                }
             }
             climb.missed(points, factor);
         }

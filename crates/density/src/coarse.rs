@@ -1,5 +1,5 @@
-//! The density from a lattice (Luft07 eq. 2): samples of it on a few points per radius, read as a cubic B-spline.
-//! A sum over thousands of balls becomes a look at 64 points.
+//! The density from a lattice (Luft07 eq. 2): samples of it on a few points per radius, joined by a cubic B-spline
+//! (Unser 1999). A sum over thousands of balls becomes a look at 64 points.
 
 use crate::field::Query;
 use crate::generators::Generator;
@@ -30,7 +30,7 @@ impl Coarse {
     /// The same on chosen instructions: same bits.
     pub fn on(generators: &[Generator], radius: f64, points_per_radius: f64, most: usize, isa: Isa) -> Coarse {
         let lattice = Lattice::around(generators, radius, points_per_radius, most);
-        let coefficients = lattice.splat(generators, radius, isa);
+        let coefficients = lattice.coefficients(generators, radius, isa);
         Coarse { lattice, coefficients, groups: Groups::new(generators), radius }
     }
 

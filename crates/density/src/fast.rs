@@ -137,6 +137,8 @@ pub(crate) struct Values {
     /// ball was summed.
     pub sky_points: Option<f64>,
     pub field_points: Option<f64>,
+    /// Error of the density relative to itself, rms.
+    pub field_error: Option<f64>,
     /// Errors against the reference, where they were measured.
     pub errors: Vec<MeasuredError>,
 }
@@ -176,6 +178,7 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
         values.ambient = field.densities.par_iter().map(ambient).collect();
         values.reference = Some(field.unit);
         values.field_points = Some(field.points);
+        values.field_error = Some(field.relative);
         values.errors.push(field.error);
     }
     Ok(values)

@@ -4,6 +4,7 @@
 use crate::generators::Generator;
 use crate::grid::{Grid, Near};
 use crate::kernel::{Batch, Isa, LANES, Path, Sums};
+use crate::moments::Moments;
 use foliar_numerics::{MORTON_BITS, morton3};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -35,6 +36,8 @@ const TASK: usize = 2048;
 #[derive(Clone, Debug)]
 pub struct Field {
     grid: Grid,
+    /// For places that all balls reach, where the radius is as large as the plant.
+    moments: Option<Moments>,
     radius: f64,
     /// Radii per meter. A power of two times it is exact, so that block and fine cell of a place agree.
     inverse: f64,
@@ -45,7 +48,8 @@ impl Field {
     /// Sorts the balls. `radius` in meters, above 0 and at least 2^-17 of the extent of balls and queries.
     pub fn new(generators: &[Generator], radius: f64) -> Field {
         let inverse = 1.0 / radius;
-        Field { grid: Grid::new(generators, inverse), radius, inverse, path: Path::best() }
+        let (grid, moments) = (Grid::new(generators, inverse), Moments::new(generators, inverse));
+        Field { grid, moments, radius, inverse, path: Path::best() }
     }
 
     /// The same field on chosen instructions (plain where the processor lacks them): same bits.
@@ -71,15 +75,18 @@ impl Field {
 
     /// Density at one place in f64, over the same balls, and how many balls were looked at.
     pub(crate) fn exact(&self, query: &Query) -> (f64, usize) {
-        self.grid.exact(query.position * self.inverse, query.skip)
+        match self.all(query) {
+            Some((density, _)) => (density, 0),
+            None => self.grid.exact(query.position * self.inverse, query.skip),
+        }
     }
 
     fn evaluate<const GRADIENT: bool>(&self, queries: &[Query]) -> Vec<Sample> {
+        let mut results: Vec<Sample> = queries.par_iter().map(|query| self.at_once(query)).collect();
         let order = self.order(queries);
         // Chunks, since all queries may lie in one block: where a radius is larger than the plant.
         let blocks = order.chunk_by(|a, b| block_of(a.0) == block_of(b.0));
         let blocks: Vec<&[(u64, u32)]> = blocks.flat_map(|block| block.chunks(TASK)).collect();
-        let mut results = vec![Sample::default(); queries.len()];
         let parts: Vec<Vec<Sample>> = tasks(&blocks)
             .into_par_iter()
             .map_init(Scratch::default, |scratch, task| {
@@ -92,12 +99,24 @@ impl Field {
         results
     }
 
-    /// Queries in Morton order, ties by index.
+    /// Density and gradient (in units of one over the radius) by moments, at a place that all balls reach.
+    fn all(&self, query: &Query) -> Option<(f64, DVec3)> {
+        self.moments.as_ref()?.sum(query)
+    }
+
+    /// The same as a sample; nothing elsewhere.
+    fn at_once(&self, query: &Query) -> Sample {
+        let (density, gradient) = self.all(query).unwrap_or_default();
+        Sample { density: density as f32, gradient: (gradient * self.inverse).as_vec3() }
+    }
+
+    /// Queries that are summed ball by ball, in Morton order, ties by index.
     fn order(&self, queries: &[Query]) -> Vec<(u64, u32)> {
         let scale = f64::from(1u32 << FINE_BITS) * self.inverse;
         let mut order: Vec<(u64, u32)> = queries
             .par_iter()
             .enumerate()
+            .filter(|(_, query)| !self.moments.as_ref().is_some_and(|moments| moments.reach(query.position)))
             .map(|(index, query)| {
                 let [x, y, z] = (query.position * scale).to_array().map(|v| (v.floor() as i64 + MIDDLE) as u32);
                 (morton3(x, y, z), index as u32)

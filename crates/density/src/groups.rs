@@ -22,6 +22,11 @@ impl Groups {
         Groups { balls }
     }
 
+    /// Number of balls.
+    pub fn len(&self) -> usize {
+        self.balls.len()
+    }
+
     /// Balls of a group.
     pub fn of(&self, group: u32) -> &[Generator] {
         let start = self.balls.partition_point(|ball| ball.group < group);

@@ -15,10 +15,11 @@ pub(crate) struct Lattice {
     pub(crate) size: USizeVec3,
 }
 
-/// Share of the second differences that reading the lattice adds. Along columns: slices, trapezoids and lookups
-/// are linear twice over along each axis, and a linear interpolation adds a twelfth. Through cubic B-splines: a
-/// sixth as well.
+/// Share of the second differences that reading the lattice along columns adds: slices, trapezoids and lookups
+/// are linear twice over along each axis, and a linear interpolation adds a twelfth.
 const SHARPEN: f32 = 1.0 / 6.0;
+/// Pole of the filter that takes samples to coefficients of a cubic B-spline (Unser 1999): the square root of 3, less 2.
+const POLE: f32 = -0.267_949_2;
 /// Points beyond the balls' reach on each side: what is read between the outermost points is exactly nothing.
 const MARGIN: f64 = 2.0;
 
@@ -52,10 +53,26 @@ impl Lattice {
         self.size.element_product()
     }
 
-    /// Density at each point (Luft07 eq. 2), less what reading it will add on average.
+    /// Density at each point (Luft07 eq. 2), less what reading it along columns will add on average.
     pub fn splat(&self, balls: &[Generator], radius: f64, isa: Isa) -> Vec<f32> {
+        self.sharpened(&self.density(balls, radius, isa))
+    }
+
+    /// Coefficients of the cubic B-spline that is the density at each point.
+    pub fn coefficients(&self, balls: &[Generator], radius: f64, isa: Isa) -> Vec<f32> {
+        let mut values = self.density(balls, radius, isa);
+        let (line, plane) = (self.size.x, self.size.x * self.size.y);
+        values.par_chunks_mut(plane).for_each(|plane| {
+            plane.chunks_exact_mut(line).for_each(|line| interpolating(line, 1));
+            interpolating(plane, line);
+        });
+        interpolating(&mut values, plane);
+        values
+    }
+
+    fn density(&self, balls: &[Generator], radius: f64, isa: Isa) -> Vec<f32> {
         let first = (self.low / self.step).round().as_ivec3();
-        self.sharpened(&dense(balls, radius, radius * self.step, (first, self.size), isa))
+        dense(balls, radius, radius * self.step, (first, self.size), isa)
     }
 
     fn sharpened(&self, density: &[f32]) -> Vec<f32> {
@@ -79,7 +96,7 @@ impl Lattice {
     }
 
     /// The cubic B-spline with these coefficients at a place; 0 near the border and outside, where no ball
-    /// reaches. With sharpened samples for coefficients it follows them to the fourth order of the step.
+    /// reaches.
     pub fn spline(&self, coefficients: &[f32], place: DVec3) -> f32 {
         let steps = (place - self.low) / self.step;
         let cell = steps.floor();
@@ -99,6 +116,24 @@ impl Lattice {
             }
         }
         (sums[0] * x[0] + sums[1] * x[1]) + (sums[2] * x[2] + sums[3] * x[3])
+    }
+}
+
+/// Samples to coefficients of cubic B-splines along one axis (Unser 1999), for rows of `row` entries, one after
+/// the other along it. What lies beyond both ends is 0.
+fn interpolating(values: &mut [f32], row: usize) {
+    const GAIN: f32 = 6.0;
+    const BEYOND: f32 = -POLE / (1.0 - POLE * POLE);
+    let rows = values.len() / row;
+    values.iter_mut().for_each(|value| *value *= GAIN);
+    for at in 1..rows {
+        let (before, from) = values[(at - 1) * row..(at + 1) * row].split_at_mut(row);
+        from.iter_mut().zip(before).for_each(|(value, before)| *value += POLE * *before);
+    }
+    values[(rows - 1) * row..].iter_mut().for_each(|value| *value *= BEYOND);
+    for at in (1..rows).rev() {
+        let (to, after) = values[(at - 1) * row..(at + 1) * row].split_at_mut(row);
+        to.iter_mut().zip(after).for_each(|(value, after)| *value = POLE * (*after - *value));
     }
 }
 

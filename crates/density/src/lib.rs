@@ -20,6 +20,7 @@ mod kernel;
 mod lattice;
 mod measure;
 mod medium;
+mod moments;
 mod normals;
 mod output;
 mod params;
@@ -66,7 +67,7 @@ impl Baker for Density {
     }
 
     fn version(&self) -> u32 {
-        2
+        3
     }
 
     fn about(&self) -> &'static str {

@@ -1,6 +1,6 @@
 //! Errors of a bake against its reference, over a fixed sample of places: for the record, and to choose by.
 
-use crate::fast::luft_ambient;
+use crate::fast::{luft_ambient, median};
 use crate::field::Query;
 use crate::generators::Foliage;
 use crate::medium::SkySample;
@@ -32,6 +32,18 @@ pub(crate) fn luft(fast: &[f32], exact: &[f64], reference: f64, params: &Params)
     let ambient = |density: f64| luft_ambient(density, reference, params);
     let errors = fast.iter().zip(exact).map(|(&fast, &exact)| ambient(f64::from(fast)) - ambient(exact));
     measured(names::AMBIENT, errors.collect())
+}
+
+/// Error of the density relative to itself, rms over the places where it is above a fifth of the median over all
+/// these places: what is left in the open is no foliage, and nothing divides by it. 0 where there is none.
+pub(crate) fn relative(fast: &[f32], exact: &[f64]) -> f64 {
+    const SHARE_OF_MEDIAN: f64 = 0.2;
+    let mut sorted = exact.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let least = SHARE_OF_MEDIAN * median(&sorted);
+    let pairs = fast.iter().zip(exact).filter(|(_, exact)| **exact > least);
+    let errors: Vec<f64> = pairs.map(|(&fast, exact)| f64::from(fast) / exact - 1.0).collect();
+    if errors.is_empty() { 0.0 } else { ErrorStats::of(errors).rms }
 }
 
 /// Errors of the sky's ambient term and directions, those of the two that `params` asks for.

@@ -86,6 +86,7 @@ fn facts(foliage: &Foliage, values: &Values, params: &Params) -> Map<String, Val
     }
     if let Some(points) = values.field_points {
         fact("fieldPointsPerRadius", json!(points));
+        fact("fieldError", json!(values.field_error));
     }
     if let Some(points) = values.sky_points {
         fact("skyPointsPerRadius", json!(points));

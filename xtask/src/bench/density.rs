@@ -1,15 +1,13 @@
 //! The density room: time, memory, error.
 
-use super::{Figure, allocations, least_seconds, missing};
-use crate::{repo, shared_trees};
-use anyhow::{Context, Result};
+use super::{Figure, allocations, least_seconds};
+use crate::shared_trees;
+use anyhow::Result;
 use foliar_bake::{Inputs, Layer, Maps, Quiet, Request, run};
 use foliar_density::{Density, Field, Foliage, NO_GROUP, Params, Query, reference};
 use foliar_plant::{Plant, sample::Recipe};
-use glam::Vec3;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use std::process::Command;
 
 /// Bakes a plant by default parameters.
 pub fn bake(plant: &Plant) -> Result<Layer> {
@@ -28,19 +26,25 @@ pub fn bake_as(plant: &Plant, given: Value) -> Result<Layer> {
 pub fn seconds() -> Result<Figure> {
     let plant = Recipe::bench_40k().grow();
     let seconds = least_seconds(5, || bake(&plant).map(drop))?;
-    Ok(Figure::new(seconds, fft(&plant)?))
+    Ok(Figure::new(seconds, "none"))
 }
 
 /// Peak of allocations over what is allowed.
 pub fn memory() -> Result<Figure> {
+    memory_of(&Recipe::bench_40k(), json!({}))
+}
+
+/// Peak of allocations of a bake over what is allowed: eight times the vertex data and 64 MB.
+pub(super) fn memory_of(recipe: &Recipe, given: Value) -> Result<Figure> {
     const BYTES_PER_VERTEX: usize = 32;
-    let plant = Recipe::bench_40k().grow();
+    let plant = recipe.grow();
     let vertices: usize = plant.parts().iter().map(|p| p.positions.len()).sum();
     let mut result = Ok(());
-    let peak = allocations::peak_bytes(|| result = bake(&plant).map(drop));
+    let peak = allocations::peak_bytes(|| result = bake_as(&plant, given).map(drop));
     result?;
     let allowed = 8 * BYTES_PER_VERTEX * vertices + 64_000_000;
-    Ok(Figure::new(peak as f64 / allowed as f64, format!("none; {:.1} of {:.1} MB", mega(peak), mega(allowed))))
+    let text = format!("none; {vertices} vertices, {:.1} of {:.1} MB", mega(peak), mega(allowed));
+    Ok(Figure::new(peak as f64 / allowed as f64, text))
 }
 
 fn mega(bytes: usize) -> f64 {
@@ -75,7 +79,7 @@ fn worst(pick: fn((f64, f64), f64) -> f64) -> Result<Figure> {
     Ok(Figure::new(worst, format!("f64 sums over all pairs at {places} vertices; worst is {at}")))
 }
 
-fn queries(plant: &Plant) -> Vec<Query> {
+pub(super) fn queries(plant: &Plant) -> Vec<Query> {
     let place = |part: &foliar_plant::Part, v| part.rest_position(v) - plant.center();
     let parts = plant.parts().iter();
     let places = parts.flat_map(|part| (0..part.positions.len()).map(move |v| place(part, v)));
@@ -96,26 +100,4 @@ fn largest_errors(foliage: &Foliage, queries: &[Query], pick: fn((f64, f64), f64
         }
     });
     errors.reduce(|| 0.0, f64::max)
-}
-
-/// What a numpy user has: the same leaves and vertices on an FFT grid of a quarter of the radius.
-fn fft(plant: &Plant) -> Result<String> {
-    let script = repo::shared().join("peers/density_fft.py");
-    let folder = repo::root().join("target/bench");
-    std::fs::create_dir_all(&folder)?;
-    let foliage = Foliage::new(plant, &[], &Params::default());
-    let centers: Vec<Vec3> = foliage.generators.iter().map(|g| g.position.as_vec3()).collect();
-    let vertices: Vec<Vec3> = queries(plant).iter().map(|q| q.position.as_vec3()).collect();
-    let (centers_file, vertices_file) = (folder.join("centers.f32"), folder.join("vertices.f32"));
-    std::fs::write(&centers_file, bytes(&centers))?;
-    std::fs::write(&vertices_file, bytes(&vertices))?;
-    let mut python = Command::new("python3");
-    python.arg(script).args([centers_file, vertices_file]).args([foliage.radius.to_string().as_str(), "4"]);
-    let Ok(printed) = repo::output(&mut python) else { return Ok(missing("numpy and scipy")) };
-    let report: Value = serde_json::from_str(&printed).context("density_fft.py printed no JSON")?;
-    Ok(format!("numpy FFT at radius/4, field alone: {:.3} s", report["seconds"].as_f64().unwrap_or(f64::NAN)))
-}
-
-fn bytes(places: &[Vec3]) -> Vec<u8> {
-    places.iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes).collect()
 }

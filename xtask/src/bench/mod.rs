@@ -6,11 +6,13 @@ mod calibration;
 pub mod correlation;
 pub mod density;
 mod expected;
+mod fft;
 mod gates;
 mod oracle;
 mod programs;
 mod reading;
 mod shading;
+mod size;
 mod surface;
 
 use anyhow::{Context, Result, bail};
@@ -46,6 +48,20 @@ const MEASURES: &[Measure] = &[
     ("calibration-seconds", calibration::seconds),
     ("density-seconds", density::seconds),
     ("density-memory", density::memory),
+    ("size-200k-seconds", size::medium),
+    ("size-200k-memory", size::medium_memory),
+    ("size-1m-seconds", size::large),
+    ("size-1m-field-seconds", size::large_field),
+    ("size-1m-field-error", size::large_error),
+    ("size-1m-exact-seconds", size::large_exact),
+    ("size-1m-radius-seconds", size::large_radius),
+    ("size-1m-memory", size::large_memory),
+    ("size-5m-memory", size::huge_memory),
+    ("neighbor-time", size::neighbor),
+    ("fft-time-40k-4", fft::small_coarse),
+    ("fft-time-40k-8", fft::small_fine),
+    ("fft-time-1m-4", fft::large_coarse),
+    ("fft-time-1m-8", fft::large_fine),
     ("branches-seconds", branches::seconds),
     ("branches-large-seconds", branches::large_seconds),
     ("branches-memory", branches::memory),

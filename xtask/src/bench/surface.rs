@@ -106,7 +106,7 @@ fn time_ratio((leaves, radius): (u32, f64), cells: u32) -> Result<Figure> {
 }
 
 /// CPU time of all threads of this process, seconds, in ticks of a hundredth.
-fn cpu_seconds() -> Result<f64> {
+pub(super) fn cpu_seconds() -> Result<f64> {
     let stat = std::fs::read_to_string("/proc/self/stat").context("/proc/self/stat: CPU times need Linux")?;
     // The name in brackets may hold anything; after it, fields 12 and 13 are user and system time.
     let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();

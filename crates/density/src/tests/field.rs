@@ -32,6 +32,30 @@ fn the_fast_field_is_within_its_bound_at_every_vertex_of_a_tree() {
     }
 }
 
+/// Nobody may be able to tell by the numbers which places all balls reach: half of these, or all.
+#[test]
+fn moments_of_all_balls_meet_the_reference() {
+    let balls: Vec<Generator> =
+        balls(3000).into_iter().map(|ball| Generator { group: ball.group / 3, ..ball }).collect();
+    for radius in [1.9, 2.3, 4.0, 1e4] {
+        let field = Field::new(&balls, radius);
+        let queries: Vec<Query> = queries(400);
+        for (sample, query) in field.samples(&queries).iter().zip(&queries) {
+            let exact = reference::field(&balls, radius, query);
+            let bound = 1e-6 * exact.weight;
+            assert!((f64::from(sample.density) - exact.density).abs() <= bound, "{radius}: {sample:?} {exact:?}");
+            let slope = (sample.gradient.as_dvec3() - exact.gradient).abs().max_element();
+            assert!(slope <= bound * 4.0 / radius, "{radius}: {sample:?} {exact:?}");
+            assert!((field.exact(query).0 - exact.density).abs() <= 1e-12 * exact.weight, "{radius} in f64");
+        }
+        let looked_at: usize = queries.iter().map(|query| field.exact(query).1).sum();
+        assert_eq!(looked_at == 0, radius > 3.0, "{radius}: {looked_at} balls one by one");
+    }
+    let one_group: Vec<Generator> = balls.iter().map(|ball| Generator { group: 7, ..*ball }).collect();
+    let own = Query { position: DVec3::ZERO, skip: 7 };
+    assert_eq!(Field::new(&one_group, 4.0).samples(&[own])[0], crate::Sample::default(), "exactly nothing");
+}
+
 #[test]
 fn all_instructions_give_the_same_bits() {
     let (balls, queries) = (balls(3000), queries(3000));

@@ -9,4 +9,3 @@ mod neighbors;
 mod oracle;
 mod plants;
 mod quality;
-mod speed;

@@ -73,6 +73,28 @@ impl Recipe {
         Recipe { leaves: 200_000, height_m: 15.0, crown_width_m: 12.0, leaf_size_m: 0.09, ..Recipe::bench_40k() }
     }
 
+    /// The same leaves on less wood: 921,004 vertices.
+    pub fn bench_200k_leafy() -> Self {
+        Recipe { leaves_per_branchlet: 12.0, ..Recipe::bench_200k() }
+    }
+
+    /// A million flat leaves, 20 m wide: 4,169,743 vertices.
+    pub fn bench_1m() -> Self {
+        Recipe {
+            leaves: 1_000_000,
+            height_m: 25.0,
+            crown_width_m: 20.0,
+            leaf_size_m: 0.06,
+            leaves_per_branchlet: 40.0,
+            ..Recipe::bench_40k()
+        }
+    }
+
+    /// Five million flat leaves, 34 m wide: more than 20 million vertices.
+    pub fn bench_5m() -> Self {
+        Recipe { leaves: 5_000_000, height_m: 43.0, crown_width_m: 34.0, ..Recipe::bench_1m() }
+    }
+
     /// Grows the tree: wood first, leaves second, each one part.
     pub fn grow(&self) -> Plant {
         let skeleton = skeleton::grow(self);
