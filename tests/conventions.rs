@@ -1,6 +1,6 @@
 //! The conventions of every program (house rules, section 6): one walk over all programs and all flags.
 
-use crate::common::{DENSITY, FOLIAR, IMPORT, NOISE, PACK, Run, VIEW, folder, run_in, tree};
+use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, NOISE, PACK, Run, VIEW, folder, run_in, tree};
 use foliar_programs::BAKERS;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,7 +20,7 @@ struct Case {
 const OBJ: &[&str] = &["tree.obj", "tree.mtl"];
 
 #[rustfmt::skip]
-const CASES: [Case; 11] = [
+const CASES: [Case; 14] = [
     Case { name: "foliar bake", program: FOLIAR, arguments: &["bake", "tree.obj", "-o", "bake.glb"],
         output: Some("bake.glb"), reads: OBJ },
     Case { name: "foliar rebake", program: FOLIAR, arguments: &["rebake", "baked.glb", "-o", "rebake.glb", "--up", "z"],
@@ -43,6 +43,11 @@ const CASES: [Case; 11] = [
         output: Some("view.png"), reads: OBJ },
     Case { name: "foliar-pack", program: PACK, arguments: &["baked.glb", "-o", "pack.glb", "--for", "core", "--up", "z"],
         output: Some("pack.glb"), reads: &["baked.glb"] },
+    Case { name: "foliar-check", program: CHECK, arguments: &["tree.obj"], output: None,
+        reads: &["tree.obj", "tree.mtl"] },
+    Case { name: "foliar diff", program: FOLIAR, arguments: &["diff", "baked.glb", "baked.glb", "--up", "z"],
+        output: None, reads: &["baked.glb"] },
+    Case { name: "foliar explain", program: FOLIAR, arguments: &["explain", "STALE"], output: None, reads: &[] },
 ];
 
 /// Everything that the commands read, and a configuration.

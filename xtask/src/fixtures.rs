@@ -1,5 +1,8 @@
 //! Fixtures are functions first, files second: writes them, and says whether the files are what the functions give.
 
+mod plant;
+mod rules;
+
 use crate::obj_text::{self, Detail};
 use crate::repo;
 use anyhow::{Context, Result, bail};
@@ -12,9 +15,10 @@ const LINDEN: &str = "fixtures/linden";
 
 /// Writes fixtures/.
 pub fn write() -> Result<()> {
-    for (file, bytes) in linden()? {
+    for (file, bytes) in all()? {
         let path = repo::root().join(&file);
-        std::fs::create_dir_all(repo::root().join(LINDEN)).context("fixtures/ cannot be made")?;
+        let folder = path.parent().context("a fixture has no folder")?;
+        std::fs::create_dir_all(folder).context("fixtures/ cannot be made")?;
         std::fs::write(&path, &bytes).with_context(|| format!("{file} cannot be written"))?;
         println!("{file}: {} bytes", bytes.len());
     }
@@ -23,7 +27,7 @@ pub fn write() -> Result<()> {
 
 /// Compares fixtures/ with what the generator gives.
 pub fn check() -> Result<()> {
-    let files = linden()?;
+    let files = all()?;
     let differs =
         |(file, bytes): &(String, Vec<u8>)| std::fs::read(repo::root().join(file)).ok().as_ref() != Some(bytes);
     let stale: Vec<&str> = files.iter().filter(|f| differs(f)).map(|(file, _)| file.as_str()).collect();
@@ -48,6 +52,11 @@ pub fn write_large() -> Result<PathBuf> {
     std::fs::write(&path, text).context("target/large/large.obj cannot be written")?;
     std::fs::write(folder.join("large.mtl"), "newmtl bark\nKd 0.4 0.3 0.2\nnewmtl leaf\nKd 0.3 0.5 0.2\n")?;
     Ok(path)
+}
+
+/// Every fixture, by path from the root.
+fn all() -> Result<Vec<(String, Vec<u8>)>> {
+    Ok(linden()?.into_iter().chain(rules::files()?).collect())
 }
 
 /// Files of the linden, by path from the root.

@@ -68,7 +68,7 @@ fn load(json: Value, bin: Option<&[u8]>, file: &str, folder: &Path, import: &Imp
 type Split<'a> = (&'a [u8], &'a [u8], Vec<Finding>);
 
 /// The JSON and BIN chunks of a GLB.
-fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<Split<'a>, CarrierError> {
+pub(crate) fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<Split<'a>, CarrierError> {
     let fail = |place: &str, problem: String, remedy: &str| Err(CarrierError::input(file, place, problem, remedy));
     if bytes.len() < HEADER_LENGTH {
         return fail("byte 0", format!("{} bytes are no GLB header (12)", bytes.len()), EXPORT_AGAIN);
@@ -109,6 +109,11 @@ fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<Split<'a>, CarrierError>
     Ok((json, bin.map_or(&[], |(_, data)| data), findings.into_iter().collect()))
 }
 
+/// Where the bytes of the second chunk start, behind a JSON chunk of so many bytes.
+pub(crate) fn bin_start(json: usize) -> usize {
+    HEADER_LENGTH + CHUNK_HEADER_LENGTH + json + CHUNK_HEADER_LENGTH
+}
+
 fn word(bytes: &[u8], offset: usize) -> u32 {
     u32::from_le_bytes([bytes[offset], bytes[offset + 1], bytes[offset + 2], bytes[offset + 3]])
 }
@@ -121,7 +126,7 @@ fn chunk_end(bytes: &[u8], offset: usize) -> Option<usize> {
 }
 
 /// Parses JSON, a UTF-8 byte order mark allowed.
-fn parse_json(bytes: &[u8], file: &str) -> Result<Value, CarrierError> {
+pub(crate) fn parse_json(bytes: &[u8], file: &str) -> Result<Value, CarrierError> {
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let json: Value = serde_json::from_slice(text).map_err(|error| {
         let place = format!("line {} column {}", error.line(), error.column());
@@ -130,7 +135,7 @@ fn parse_json(bytes: &[u8], file: &str) -> Result<Value, CarrierError> {
     if json.is_object() { Ok(json) } else { Err(CarrierError::input(file, "", "the JSON is no object", EXPORT_AGAIN)) }
 }
 
-fn check_version(json: &Value, file: &str) -> Result<(), CarrierError> {
+pub(crate) fn check_version(json: &Value, file: &str) -> Result<(), CarrierError> {
     let version = json.pointer("/asset/version").and_then(Value::as_str).unwrap_or("");
     if version.starts_with("2.") {
         return Ok(());
@@ -141,7 +146,7 @@ fn check_version(json: &Value, file: &str) -> Result<(), CarrierError> {
 
 /// Refuses geometry that only a decoder can read. Draco also where plain accessors stand beside it:
 /// loaders prefer the compressed vertices, whose order differs from theirs.
-fn check_compression(json: &Value, file: &str) -> Result<(), CarrierError> {
+pub(crate) fn check_compression(json: &Value, file: &str) -> Result<(), CarrierError> {
     const DRACO: &str = "KHR_draco_mesh_compression";
     const MESHOPT: &str = "EXT_meshopt_compression";
     let items = |value: &Value, key: &str| value.get(key).and_then(Value::as_array).cloned().unwrap_or_default();
@@ -164,16 +169,16 @@ fn check_compression(json: &Value, file: &str) -> Result<(), CarrierError> {
 }
 
 /// Where one buffer's bytes come from.
-struct BufferSource<'a> {
-    index: usize,
-    bin: Option<&'a [u8]>,
-    file: &'a str,
-    folder: &'a Path,
-    import: &'a Import,
+pub(crate) struct BufferSource<'a> {
+    pub index: usize,
+    pub bin: Option<&'a [u8]>,
+    pub file: &'a str,
+    pub folder: &'a Path,
+    pub import: &'a Import,
 }
 
 impl BufferSource<'_> {
-    fn load(&self, buffer: &Value, files: &mut Vec<PathBuf>) -> Result<Vec<u8>, CarrierError> {
+    pub fn load(&self, buffer: &Value, files: &mut Vec<PathBuf>) -> Result<Vec<u8>, CarrierError> {
         let place = format!("/buffers/{}", self.index);
         let fail = |problem: String, remedy: &str| Err(CarrierError::input(self.file, place.clone(), problem, remedy));
         let Some(length) = index_of(buffer, "byteLength") else {

@@ -20,6 +20,14 @@ pub(crate) struct OwnIds<'a> {
     pub count: u32,
 }
 
+/// The parts that can be read, and why the others cannot.
+#[derive(Default)]
+pub(crate) struct Readable {
+    pub parts: Vec<Part>,
+    pub position_count: u32,
+    pub errors: Vec<CarrierError>,
+}
+
 /// What extraction reads and what it says.
 pub(crate) struct Extraction<'a> {
     pub source: Source<'a>,
@@ -46,6 +54,26 @@ impl Extraction<'_> {
         let position_count = self.ids.as_ref().map_or(ids.count, |own| own.count);
         trees::report(self.source, &walked, &parts, self.selection, findings);
         Ok(Base { parts, materials: surfaces.materials, rasters: surfaces.rasters, position_count })
+    }
+
+    /// As [`Extraction::run`], without materials; a primitive that cannot be read is left out, and why.
+    pub fn readable_parts(&self, findings: &mut Vec<Finding>) -> Result<Readable, CarrierError> {
+        let walked = walk_scene(self.source, self.selection, findings)?;
+        let mut ids = PositionIds::default();
+        let mut read = Readable::default();
+        for (mesh, drawn) in self.first_drawn(&walked.drawn, findings) {
+            let primitives = self.source.document.list("meshes")[mesh].get("primitives").and_then(Value::as_array);
+            for (index, primitive) in primitives.into_iter().flatten().enumerate() {
+                let place = Place { mesh: mesh as u32, primitive: index as u32 };
+                match self.part(place, primitive, drawn, &mut ids, findings) {
+                    Ok(part) => read.parts.extend(part),
+                    Err(error) => read.errors.push(error),
+                }
+            }
+        }
+        read.position_count = ids.count;
+        trees::report(self.source, &walked, &read.parts, self.selection, findings);
+        Ok(read)
     }
 
     /// The first node that draws each mesh.

@@ -29,6 +29,7 @@ mod read;
 mod rebase;
 mod scene;
 pub mod second_reader;
+pub mod survey;
 mod takeout;
 mod trees;
 mod triangles;

@@ -66,7 +66,7 @@ fn texture_finding(source: Source, image: usize, problem: &str) -> Finding {
     Finding::new(&code::IMPORT_TEXTURE, message).at(format!("/images/{image}")).in_file(source.file)
 }
 
-fn material(value: &Value, base_color_raster: Option<u32>) -> Material {
+pub(crate) fn material(value: &Value, base_color_raster: Option<u32>) -> Material {
     let factor = value.pointer("/pbrMetallicRoughness/baseColorFactor").and_then(Value::as_array);
     let mut base_color = [1.0; 4];
     for (slot, number) in base_color.iter_mut().zip(factor.into_iter().flatten()) {

@@ -22,10 +22,7 @@ pub(crate) fn asset(bytes: &[u8], name: &str, folder: &Path, import: &Import) ->
     let Opened { document, own_ids, mut findings, mut files, source } = open(bytes, name, folder, import)?;
     let Taken { mut document, layers, findings: taken } = takeout::take_out(document, name)?;
     findings.extend(taken);
-    document.selection = Selection {
-        scene: import.scene.or(document.selection.scene),
-        node: import.node.clone().or(document.selection.node),
-    };
+    document.selection = chosen(&document, import);
     if import.expand_instances {
         instances::expand(&mut document, name)?;
     }
@@ -38,6 +35,27 @@ pub(crate) fn asset(bytes: &[u8], name: &str, folder: &Path, import: &Import) ->
     Ok(Asset { document, base, base_hash, layers, findings, files, source })
 }
 
+/// What the layers of a master say of its base: a finding for each that was baked from another.
+pub(crate) fn stale_records(document: Document, name: &str, import: &Import) -> Result<Vec<Finding>, CarrierError> {
+    let Taken { mut document, layers, mut findings } = takeout::take_out(document, name)?;
+    document.selection = chosen(&document, import);
+    let selection = &document.selection;
+    let extraction = Extraction { source: Source { document: &document, file: name }, selection, import, ids: None };
+    // Import's own findings were told when the parts were read.
+    let base = extraction.run(&mut Vec::new(), &mut Vec::new())?;
+    let hash = base_hash(&base);
+    findings.extend(layers.iter().filter_map(|layer| stale(layer, &hash, name)));
+    Ok(findings)
+}
+
+/// What is baked: what is asked for, else what the file remembers.
+fn chosen(document: &Document, import: &Import) -> Selection {
+    Selection {
+        scene: import.scene.or(document.selection.scene),
+        node: import.node.clone().or(document.selection.node.clone()),
+    }
+}
+
 fn stale(layer: &Layer, base_hash: &str, file: &str) -> Option<Finding> {
     let read = layer.record.reads.get("base").filter(|read| *read != base_hash)?;
     let message = format!("{} was baked from the base {read}, this one is {base_hash}", layer.record.room);
@@ -45,7 +63,7 @@ fn stale(layer: &Layer, base_hash: &str, file: &str) -> Option<Finding> {
 }
 
 /// What the bytes look like.
-fn kind(bytes: &[u8], name: &str) -> Result<SourceKind, CarrierError> {
+pub(crate) fn kind(bytes: &[u8], name: &str) -> Result<SourceKind, CarrierError> {
     let ending = Path::new(name).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let fail = |problem: &str, remedy: &str| Err(CarrierError::input(name, "byte 0", problem, remedy));
     if bytes.is_empty() {

@@ -3,11 +3,13 @@
 //! every file that they write, since the Khronos validator cannot look inside the extensions.
 
 mod packed;
+mod tables;
 
-use foliar_schema::{CHANNELS, COLUMNS, Channel, names};
+use foliar_schema::{CHANNELS, Channel, CodeInfo, code, names};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
+use tables::Table;
 
 /// What a file was found to hold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -41,7 +43,7 @@ fn verify_json(bytes: &[u8], path: &Path) -> Result<Summary, String> {
     let uri = json["buffers"][0]["uri"].as_str().filter(|uri| !uri.starts_with("data:"));
     let name = uri.map(|uri| percent_encoding::percent_decode_str(uri).decode_utf8_lossy().into_owned());
     let bin = name.map(|name| std::fs::read(path.with_file_name(name)).map_err(|e| e.to_string())).transpose()?;
-    Master { json: &json, bin: bin.as_deref().unwrap_or(&[]) }.verify()
+    first(problems(&json, bin.as_deref().unwrap_or(&[])))
 }
 
 /// Verifies one GLB.
@@ -66,7 +68,44 @@ pub fn verify(bytes: &[u8]) -> Result<Summary, String> {
     } else {
         &[]
     };
-    Master { json: &json, bin }.verify()
+    first(problems(&json, bin))
+}
+
+/// What does not hold at one place of a file.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// Its code.
+    pub code: &'static CodeInfo,
+    /// JSON pointer, or empty.
+    pub place: String,
+    /// What does not hold, with the numbers.
+    pub text: String,
+}
+
+impl Problem {
+    fn at(self, place: &str) -> Self {
+        Problem { place: place.into(), ..self }
+    }
+}
+
+/// Names the code of what does not hold.
+fn coded<T>(code: &'static CodeInfo, result: Result<T, String>) -> Result<T, Problem> {
+    result.map_err(|text| Problem { code, place: String::new(), text })
+}
+
+fn first((summary, problems): (Summary, Vec<Problem>)) -> Result<Summary, String> {
+    match problems.into_iter().next() {
+        None => Ok(summary),
+        Some(Problem { place, text, .. }) if place.is_empty() => Err(text),
+        Some(Problem { place, text, .. }) => Err(format!("{place}: {text}")),
+    }
+}
+
+/// Everything in a glTF that does not hold, `bin` its first buffer, and what it was found to hold.
+pub fn problems(json: &Value, bin: &[u8]) -> (Summary, Vec<Problem>) {
+    let mut found = Vec::new();
+    let summary = Master { json, bin }.verify(&mut found);
+    (summary, found)
 }
 
 fn ensure(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {
@@ -85,12 +124,6 @@ struct Master<'a> {
     bin: &'a [u8],
 }
 
-/// A property table as it was found.
-struct Table {
-    class: String,
-    rows: usize,
-}
-
 fn number(value: &Value) -> usize {
     value.as_u64().map_or(0, |n| n as usize)
 }
@@ -100,44 +133,77 @@ fn items(value: &Value) -> impl Iterator<Item = (usize, &Value)> {
 }
 
 impl Master<'_> {
-    fn verify(&self) -> Result<Summary, String> {
+    fn verify(&self, found: &mut Vec<Problem>) -> Summary {
         let root = &self.json["extensions"][names::EXTENSION];
         if root.is_null() {
-            let Some(engine) = packed::Packed::engine(self.json) else { return Ok(Summary::default()) };
-            let verified = packed::Packed { json: self.json, bin: self.bin }.verify(engine);
-            return verified.map(|()| Summary::default()).map_err(|e| format!("packed for {engine}: {e}"));
+            found.extend(self.packed().err());
+            return Summary::default();
         }
-        let mirror = &self.json["asset"]["extras"];
-        ensure(is_mirror(mirror, "contract", root), || "mirror and extension differ".into())?;
-        let listed = |list: &str, name: &str| items(&self.json[list]).any(|(_, v)| v == name);
-        ensure(listed("extensionsUsed", names::EXTENSION), || "the extension is not listed as used".into())?;
-        ensure(!listed("extensionsRequired", names::EXTENSION), || "the extension must not be required".into())?;
+        found.extend(self.header(root).into_iter().filter_map(Result::err));
         let writes: BTreeSet<&str> =
             items(&root["records"]).flat_map(|(_, r)| items(&r["writes"]).filter_map(|(_, w)| w.as_str())).collect();
-        let tables = self.tables(root, &writes)?;
+        let tables = self.tables(root, &writes, found);
         let mut summary = Summary {
             rooms: items(&root["records"]).filter_map(|(_, r)| r["room"].as_str().map(str::to_string)).collect(),
             leaves: tables.iter().find(|t| t.class == names::CLASS_LEAF).map_or(0, |t| t.rows),
             ..Summary::default()
         };
-        let mut found = BTreeSet::new();
+        let mut channels = BTreeSet::new();
+        let mut is_whole = true;
         for (m, mesh) in items(&self.json["meshes"]) {
             let mut sets = BTreeSet::new();
             for (p, primitive) in items(&mesh["primitives"]) {
-                let at = format!("/meshes/{m}/primitives/{p}");
-                let (names, role) = self.primitive(root, primitive, &tables).map_err(|e| format!("{at}: {e}"))?;
-                summary.roles += usize::from(role);
-                summary.attributes += names.len();
-                sets.insert(names);
+                match self.primitive(root, primitive, &tables) {
+                    Ok((names, role)) => {
+                        summary.roles += usize::from(role);
+                        summary.attributes += names.len();
+                        sets.insert(names);
+                    }
+                    Err(problem) => {
+                        found.push(problem.at(&format!("/meshes/{m}/primitives/{p}")));
+                        is_whole = false;
+                    }
+                }
             }
-            ensure(sets.len() <= 1, || format!("/meshes/{m}: its primitives carry different channels: {sets:?}"))?;
-            found.extend(sets.into_iter().flatten());
+            let same = ensure(sets.len() <= 1, || format!("its primitives carry different channels: {sets:?}"));
+            found.extend(coded(&code::CONTRACT_CHANNEL, same).map_err(|p| p.at(&format!("/meshes/{m}"))).err());
+            channels.extend(sets.into_iter().flatten());
         }
-        let missing: Vec<_> = writes.iter().filter(|w| !w.contains('/') && !found.contains(**w)).collect();
-        ensure(missing.is_empty(), || format!("records name channels that no primitive has: {missing:?}"))?;
-        let extra: Vec<_> = found.iter().filter(|name| !writes.contains(**name)).collect();
-        ensure(extra.is_empty(), || format!("no record names the channels {extra:?}"))?;
-        Ok(summary)
+        // A primitive that does not hold says so itself; what it carries is not known.
+        found.extend(records(&writes, &channels).into_iter().filter(|_| is_whole).filter_map(Result::err));
+        summary
+    }
+
+    fn packed(&self) -> Result<(), Problem> {
+        let Some(engine) = packed::Packed::engine(self.json) else { return Ok(()) };
+        let verified = packed::Packed { json: self.json, bin: self.bin }.verify(engine);
+        coded(&code::CONTRACT_CHANNEL, verified.map_err(|e| format!("packed for {engine}: {e}")))
+    }
+
+    /// Mirror, declarations, and that each room has one record.
+    fn header(&self, root: &Value) -> [Result<(), Problem>; 4] {
+        let mirror = &self.json["asset"]["extras"];
+        let listed = |list: &str, name: &str| items(&self.json[list]).any(|(_, v)| v == name);
+        let used = ensure(listed("extensionsUsed", names::EXTENSION), || "the extension is not listed as used".into());
+        let required = listed("extensionsRequired", names::EXTENSION);
+        let mut rooms: Vec<&str> = items(&root["records"]).filter_map(|(_, r)| r["room"].as_str()).collect();
+        rooms.sort_unstable();
+        let twice = rooms.windows(2).find(|pair| pair[0] == pair[1]);
+        [
+            coded(
+                &code::CONTRACT_MIRROR,
+                ensure(is_mirror(mirror, "contract", root), || "mirror and extension differ".into()),
+            ),
+            coded(&code::CONTRACT_DECLARED, used),
+            coded(
+                &code::CONTRACT_DECLARED,
+                ensure(!required, || "the extension must not be required: stock loaders would refuse the file".into()),
+            ),
+            coded(
+                &code::CONTRACT_COLLISION,
+                ensure(twice.is_none(), || format!("room {} has two records", twice.map_or("", |pair| pair[0]))),
+            ),
+        ]
     }
 
     /// Channels of a primitive, each value checked, and whether it has a role.
@@ -146,13 +212,13 @@ impl Master<'_> {
         root: &Value,
         primitive: &Value,
         tables: &[Table],
-    ) -> Result<(BTreeSet<&'static str>, bool), String> {
+    ) -> Result<(BTreeSet<&'static str>, bool), Problem> {
         let role = &primitive["extensions"][names::EXTENSION]["role"];
         let mirror = &primitive["extras"];
-        ensure(role.is_null() || is_mirror(mirror, "role", &json!({"role": role})), || {
-            "role and mirror differ".into()
-        })?;
-        ensure(role.is_null() || ["wood", "leaf", "other"].iter().any(|r| role == r), || format!("role {role}"))?;
+        let mirrors = role.is_null() || is_mirror(mirror, "role", &json!({"role": role}));
+        coded(&code::CONTRACT_MIRROR, ensure(mirrors, || "role and mirror differ".into()))?;
+        let known = role.is_null() || ["wood", "leaf", "other"].iter().any(|r| role == r);
+        coded(&code::CONTRACT_MIRROR, ensure(known, || format!("role {role} is none of wood, leaf, other")))?;
         let attributes = &primitive["attributes"];
         let count = number(&self.json["accessors"][number(&attributes["POSITION"])]["count"]);
         let mut found = BTreeSet::new();
@@ -165,8 +231,9 @@ impl Master<'_> {
             }
             let name = root["renamed"][channel.name].as_str().unwrap_or(channel.name);
             if let Some(accessor) = attributes.get(name) {
-                let values = self.floats(number(accessor), channel.width, count).map_err(|e| format!("{name}: {e}"))?;
-                check_values(channel, &values).map_err(|e| format!("{name}: {e}"))?;
+                let values = self.floats(number(accessor), channel.width, count).map_err(|e| format!("{name}: {e}"));
+                let values = coded(&code::CONTRACT_CHANNEL, values)?;
+                coded(&code::CONTRACT_RANGE, check_values(channel, &values).map_err(|e| format!("{name}: {e}")))?;
                 found.insert(channel.name);
             }
         }
@@ -180,10 +247,24 @@ impl Master<'_> {
         count: usize,
         tables: &[Table],
         (label, class): (&str, &str),
-    ) -> Result<bool, String> {
+    ) -> Result<bool, Problem> {
         let features = &primitive["extensions"][names::MESH_FEATURES]["featureIds"];
-        let feature = items(features).map(|(_, f)| f).filter(|f| f["label"] == label).last();
-        let Some(feature) = feature else { return Ok(false) };
+        let labeled: Vec<&Value> = items(features).map(|(_, f)| f).filter(|f| f["label"] == label).collect();
+        let Some(feature) = labeled.last() else { return Ok(false) };
+        let once = ensure(labeled.len() == 1, || format!("{} sets of ids have the label {label}", labeled.len()));
+        coded(&code::CONTRACT_COLLISION, once)?;
+        coded(&code::CONTRACT_ID, self.id_values(primitive, feature, count, tables, (label, class)))?;
+        Ok(true)
+    }
+
+    fn id_values(
+        &self,
+        primitive: &Value,
+        feature: &Value,
+        count: usize,
+        tables: &[Table],
+        (label, class): (&str, &str),
+    ) -> Result<(), String> {
         let table =
             feature["propertyTable"].as_u64().map(|t| tables.get(t as usize).ok_or("no such table")).transpose()?;
         let own = tables.iter().find(|t| t.class == class);
@@ -196,8 +277,7 @@ impl Master<'_> {
         let accessor = primitive["attributes"][&attribute].as_u64().ok_or(format!("{attribute} does not exist"))?;
         let ids = self.floats(accessor as usize, 1, count)?;
         let bad = ids.iter().find(|id| id.fract() != 0.0 || **id < 0.0 || **id > null as f64);
-        ensure(bad.is_none(), || format!("{label}: id {bad:?} is no row of {rows}"))?;
-        Ok(true)
+        ensure(bad.is_none(), || format!("{label}: id {bad:?} is no row of {rows}"))
     }
 
     /// All values of a float accessor of foliar.
@@ -214,7 +294,9 @@ impl Master<'_> {
         let bytes = self.view(view, 4)?;
         let (stride, offset) = (number(&view["byteStride"]).max(width * 4), number(&accessor["byteOffset"]));
         (0..count)
-            .flat_map(|i| (0..width).map(move |c| offset + i * stride + c * 4))
+            .flat_map(|i| {
+                (0..width).map(move |c| i.saturating_mul(stride).saturating_add(offset).saturating_add(c * 4))
+            })
             .map(|at| float(bytes, at).ok_or_else(|| format!("byte {at} lies outside its view")))
             .collect()
     }
@@ -222,68 +304,21 @@ impl Master<'_> {
     fn view(&self, view: &Value, alignment: usize) -> Result<&[u8], String> {
         let (offset, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
         ensure(view["buffer"] == 0 && offset % alignment == 0, || format!("view {view} is misplaced"))?;
-        self.bin.get(offset..offset + length).ok_or_else(|| format!("view {view} reaches past its buffer"))
+        self.bin
+            .get(offset..offset.saturating_add(length))
+            .ok_or_else(|| format!("view {view} reaches past its buffer"))
     }
+}
 
-    /// All tables of the file in their order, foliar's verified: under their own class names.
-    fn tables(&self, root: &Value, writes: &BTreeSet<&str>) -> Result<Vec<Table>, String> {
-        let metadata = &self.json["extensions"][names::STRUCTURAL_METADATA];
-        let mut own: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-        for (class, property) in writes.iter().filter_map(|w| w.split_once('/')) {
-            own.entry(class).or_default().insert(property);
-        }
-        let mut tables = Vec::new();
-        for (_, table) in items(&metadata["propertyTables"]) {
-            let name = table["class"].as_str().unwrap_or("");
-            let class = own.keys().find(|class| root["renamed"][**class].as_str().unwrap_or(class) == name);
-            let rows = number(&table["count"]);
-            if let Some(class) = class {
-                let definitions = &metadata["schema"]["classes"][name]["properties"];
-                for property in &own[class] {
-                    let view = &self.json["bufferViews"][number(&table["properties"][property]["values"])];
-                    self.column(class, property, &definitions[property], view, rows)?;
-                }
-            }
-            tables.push(Table { class: class.map_or(name, |c| c).into(), rows });
-        }
-        let found: BTreeSet<String> = tables.iter().map(|t| t.class.clone()).collect();
-        for (class, properties) in own.iter().filter(|(class, _)| !found.contains(**class)) {
-            let named = &root["tables"][*class];
-            let rows = named["count"].as_u64().ok_or(format!("there is no table {class}"))? as usize;
-            for property in properties.iter().filter(|_| rows > 0) {
-                let definition = &named["properties"][property];
-                let views = &self.json["bufferViews"];
-                let view = items(views).map(|(_, v)| v).find(|v| v["name"] == definition["bufferView"]);
-                self.column(class, property, definition, view.ok_or(format!("{class}/{property} has no view"))?, rows)?;
-            }
-            tables.push(Table { class: (*class).into(), rows });
-        }
-        Ok(tables)
-    }
-
-    fn column(&self, class: &str, property: &str, definition: &Value, view: &Value, rows: usize) -> Result<(), String> {
-        let at = format!("{class}/{property}");
-        let Some(column) = COLUMNS.iter().find(|c| c.class == class && c.name == property) else { return Ok(()) };
-        let float = column.element == foliar_schema::Element::F32;
-        let kind = if column.array {
-            "SCALAR".into()
-        } else {
-            ["SCALAR", "VEC2", "VEC3", "VEC4"][column.width - 1].to_string()
-        };
-        let component = if float { "FLOAT32" } else { "INT32" };
-        let fits = definition["type"] == kind && definition["componentType"] == component;
-        ensure(fits, || format!("{at}: its class says {definition}"))?;
-        let bytes = self.view(view, 8).map_err(|e| format!("{at}: {e}"))?;
-        ensure(bytes.len() == rows * column.width * 4, || format!("{at}: {} bytes for {rows} rows", bytes.len()))?;
-        if float {
-            let values: Vec<f64> = (0..bytes.len() / 4).filter_map(|i| float_at(bytes, i)).collect();
-            ensure(values.iter().all(|v| v.is_finite()), || format!("{at} is not finite"))?;
-            ensure(property != "area" || values.iter().all(|v| *v >= 0.0), || format!("{at} is negative"))?;
-            let unit = property != "normal" || values.chunks(3).all(is_unit);
-            ensure(unit, || format!("{at} holds a normal that is not unit"))?;
-        }
-        Ok(())
-    }
+/// Records and channels name each other.
+fn records(writes: &BTreeSet<&str>, channels: &BTreeSet<&'static str>) -> [Result<(), Problem>; 2] {
+    let missing: Vec<_> = writes.iter().filter(|w| !w.contains('/') && !channels.contains(**w)).collect();
+    let extra: Vec<_> = channels.iter().filter(|name| !writes.contains(**name)).collect();
+    [
+        ensure(missing.is_empty(), || format!("records name channels that no primitive has: {missing:?}")),
+        ensure(extra.is_empty(), || format!("no record names the channels {extra:?}")),
+    ]
+    .map(|result| coded(&code::CONTRACT_RECORD, result))
 }
 
 /// Channels that are ids, with label and table class.
@@ -295,10 +330,6 @@ const IDS: [(&str, &str, &str); 2] = [
 fn float(bytes: &[u8], at: usize) -> Option<f64> {
     let four: [u8; 4] = bytes.get(at..at + 4)?.try_into().ok()?;
     Some(f64::from(f32::from_le_bytes(four)))
-}
-
-fn float_at(bytes: &[u8], index: usize) -> Option<f64> {
-    float(bytes, index * 4)
 }
 
 fn is_unit(vector: &[f64]) -> bool {

@@ -77,7 +77,7 @@ pub struct Column {
 pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_DENSITY];
 
 /// Rooms that the plan names and this version has not.
-pub const LATER_ROOMS: &[&str] = &["wind", "light", "occlusion", "translucency", "fall", "leafscan", "check"];
+pub const LATER_ROOMS: &[&str] = &["wind", "light", "occlusion", "translucency", "fall", "leafscan"];
 
 /// Largest id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;

@@ -239,6 +239,16 @@ impl Default for Budget {
     }
 }
 
+/// What is checked, and how serious it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Check {
+    /// Rooms or channels that the file must hold: `wind,density`.
+    pub require: Vec<String>,
+    /// How serious a code is here: CODE=off, CODE=note, CODE=warning or CODE=error.
+    pub severity: Vec<String>,
+}
+
 /// What a packed file is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

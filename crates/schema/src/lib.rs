@@ -16,7 +16,7 @@ mod role;
 pub use channel::{CHANNELS, COLUMNS, Channel, Column, Element, LATER_ROOMS, Neutral, ROOMS, channel, column};
 pub use codes::{CODES, CodeInfo, code};
 pub use config::{
-    Ambient, Budget, Camera, Engine, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
+    Ambient, Budget, Camera, Check, Engine, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
 };
 pub use extension::{CONTRACT, FoliageExtension, PrimitiveExtension};
 pub use finding::{Finding, Severity};

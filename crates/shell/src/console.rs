@@ -115,8 +115,17 @@ impl Console {
     }
 }
 
-/// `warning[ROLE-UNSURE] tree.obj, /meshes/0: message`.
+/// `warning[ROLE-UNSURE] tree.obj, /meshes/0: message`, plain.
+pub fn finding_line(finding: &Finding) -> String {
+    finding_with(finding, |text, _| text.into())
+}
+
+/// The same as people see it on a terminal.
 fn finding_text(finding: &Finding) -> String {
+    finding_with(finding, painted)
+}
+
+fn finding_with(finding: &Finding, paint: impl Fn(&str, u8) -> String) -> String {
     let (word, color) = match finding.severity {
         Severity::Note => ("note", CYAN),
         Severity::Warning => ("warning", YELLOW),
@@ -124,7 +133,7 @@ fn finding_text(finding: &Finding) -> String {
     };
     let place: Vec<&str> = [&finding.file, &finding.place].into_iter().flatten().map(String::as_str).collect();
     let place = if place.is_empty() { String::new() } else { format!(" {}", place.join(", ")) };
-    format!("{}{place}: {}", painted(&format!("{word}[{}]", finding.code), color), finding.message)
+    format!("{}{place}: {}", paint(&format!("{word}[{}]", finding.code), color), finding.message)
 }
 
 const RED: u8 = 31;

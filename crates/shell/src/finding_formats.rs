@@ -52,7 +52,8 @@ fn severity(severity: Severity) -> &'static str {
 fn sarif(reports: &[Map<String, Value>]) -> Value {
     let rule = |info: &foliar_schema::CodeInfo| json!({"id": info.code, "shortDescription": {"text": info.doc}});
     let result = |finding: Finding| {
-        let mut location = json!({"physicalLocation": {"artifactLocation": {"uri": finding.file}}});
+        let uri = finding.file.as_deref().map(uri).unwrap_or_default();
+        let mut location = json!({"physicalLocation": {"artifactLocation": {"uri": uri}}});
         if let Some(line) = line(&finding) {
             location["physicalLocation"]["region"] = json!({"startLine": line});
         } else if let Some(place) = &finding.place {
@@ -77,6 +78,13 @@ fn sarif(reports: &[Map<String, Value>]) -> Value {
             "results": reports.iter().flat_map(findings).map(result).collect::<Vec<_>>(),
         }],
     })
+}
+
+/// A path as a URI reference: SARIF knows nothing else.
+fn uri(path: &str) -> String {
+    const KEPT: percent_encoding::AsciiSet =
+        percent_encoding::NON_ALPHANUMERIC.remove(b'/').remove(b'.').remove(b'-').remove(b'_').remove(b'~');
+    percent_encoding::utf8_percent_encode(&path.replace('\\', "/"), &KEPT).to_string()
 }
 
 /// One suite per asset; notes pass, all else fails.
@@ -134,7 +142,10 @@ mod tests {
         let result = &all["runs"][0]["results"][0];
         assert_eq!((&result["ruleId"], &result["level"]), (&"IMPORT-MTL".into(), &"warning".into()));
         let place = &result["locations"][0]["physicalLocation"];
-        assert_eq!((&place["artifactLocation"]["uri"], &place["region"]["startLine"]), (&"a,b.obj".into(), &7.into()));
+        assert_eq!(
+            (&place["artifactLocation"]["uri"], &place["region"]["startLine"]),
+            (&"a%2Cb.obj".into(), &7.into())
+        );
         assert_eq!(all["runs"][0]["results"][1]["ruleId"], "FAILED");
     }
 

@@ -26,4 +26,4 @@ mod telling;
 
 pub use commands::{Program, commands};
 pub use failure::Failure;
-pub use start::{foliar, foliar_import, foliar_library, foliar_pack, foliar_room, foliar_view};
+pub use start::{foliar, foliar_check, foliar_import, foliar_library, foliar_pack, foliar_room, foliar_view};

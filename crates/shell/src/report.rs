@@ -43,6 +43,8 @@ pub struct Report {
     pub text: Option<String>,
     /// What machines read in place of it.
     pub answer: Option<Value>,
+    /// The findings stand in `text` already: nobody else says them.
+    pub tells_findings: bool,
     laps: Map<String, Value>,
     start: Instant,
     lap: Instant,
@@ -60,6 +62,7 @@ impl Report {
             written: Vec::new(),
             text: None,
             answer: None,
+            tells_findings: false,
             laps: Map::new(),
             start: now,
             lap: now,

@@ -148,7 +148,7 @@ fn settle(options: &Options, console: &Console, product: Product, report: &mut R
 
 /// Prints the findings, and refuses those that are too serious.
 fn fail_on(options: &Options, console: &Console, report: &Report) -> Result<(), Failure> {
-    for finding in &report.findings {
+    for finding in report.findings.iter().filter(|_| !report.tells_findings) {
         console.finding(finding);
     }
     let Some(limit) = options.fail_on else { return Ok(()) };

@@ -39,6 +39,11 @@ pub fn foliar_pack(bakers: &[&dyn Baker]) -> ExitCode {
     start(&Program::Pack, bakers)
 }
 
+/// The program `foliar-check`.
+pub fn foliar_check(bakers: &[&dyn Baker]) -> ExitCode {
+    start(&Program::Check, bakers)
+}
+
 fn start(program: &Program, bakers: &[&dyn Baker]) -> ExitCode {
     let result = guard(|| work(program, bakers));
     let Err(failure) = result else { return ExitCode::SUCCESS };

@@ -46,6 +46,28 @@ pub fn analyze(base: &Base, roles: &Roles, params: &StructureParams) -> Result<A
     Ok(Analysis { structure: found.structure, layer, parts, findings })
 }
 
+/// Roles alone, with what a person should know of them: nothing is looked for piece by piece, so it is cheap.
+///
+/// # Errors
+/// As [`analyze`].
+pub fn judge_roles(
+    base: &Base,
+    roles: &Roles,
+    params: &StructureParams,
+) -> Result<(Vec<PartEvidence>, Vec<Finding>), StructureError> {
+    params.check()?;
+    base.check()?;
+    let patterns = Patterns::new(roles)?;
+    let geometry = Geometry::new(base);
+    let shapes: Vec<_> = geometry.parts.iter().map(measure).collect();
+    let parts = roles::decide(&geometry, &shapes, &patterns);
+    let decided: Vec<Role> = parts.iter().map(|p| p.role).collect();
+    let mut findings = findings::role_findings(&parts, params.min_confidence);
+    findings.extend(findings::pattern_findings(&patterns, base));
+    findings.extend(lying::lying_axis(&geometry, &decided).map(findings::lying_finding));
+    Ok((parts, findings))
+}
+
 /// Parameters as they were used.
 fn resolved(roles: &Roles, params: &StructureParams, crown_spacing: Option<f64>) -> Map<String, Value> {
     let values = [

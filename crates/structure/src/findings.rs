@@ -80,13 +80,15 @@ fn unsure_message(unsure: &[&PartEvidence]) -> String {
     format!("{}; if that is right, put into foliar.toml:\n[roles]\n{}", guesses.join(", "), lines.join("\n"))
 }
 
+/// The trunk's end points to `axis`.
+pub(crate) fn lying_finding(axis: &str) -> Finding {
+    Finding::new(&code::IMPORT_LYING, format!("the trunk's end points to {axis}, not down"))
+}
+
 /// Findings about geometry that is kept and left alone.
 pub(crate) fn geometry_findings(geometry: &Geometry, zero_area: usize, lying: Option<&str>) -> Vec<Finding> {
     let mut findings = Vec::new();
-    if let Some(axis) = lying {
-        let message = format!("the trunk's end points to {axis}, not down");
-        findings.push(Finding::new(&code::IMPORT_LYING, message));
-    }
+    findings.extend(lying.map(lying_finding));
     let arealess: usize = geometry.parts.iter().map(|p| p.has_area.iter().filter(|a| !**a).count()).sum();
     let unused: usize = geometry.parts.iter().map(|p| p.pieces.unused_vertices()).sum();
     if arealess + unused > 0 {

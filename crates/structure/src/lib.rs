@@ -24,7 +24,7 @@ mod shape;
 mod sharing;
 mod words;
 
-pub use analyze::{Analysis, analyze};
+pub use analyze::{Analysis, analyze, judge_roles};
 pub use error::StructureError;
 pub use evidence::{Evidence, PartEvidence, Source, explain};
 pub use layer::{from_layer, to_layer};

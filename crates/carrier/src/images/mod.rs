@@ -78,7 +78,7 @@ impl Format {
         }
     }
 
-    const fn decoder(self) -> Option<ImageFormat> {
+    pub(crate) const fn decoder(self) -> Option<ImageFormat> {
         match self {
             Format::Png => Some(ImageFormat::Png),
             Format::Jpeg => Some(ImageFormat::Jpeg),
@@ -156,7 +156,7 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Raster, CarrierError> {
 }
 
 /// Whether the end marker follows the last scan: the decoder fills up what is missing with gray.
-fn jpeg_ends(bytes: &[u8]) -> bool {
+pub(crate) fn jpeg_ends(bytes: &[u8]) -> bool {
     let last_scan = memchr::memmem::rfind(bytes, b"\xFF\xDA").unwrap_or(0);
     memchr::memmem::find(&bytes[last_scan..], b"\xFF\xD9").is_some()
 }

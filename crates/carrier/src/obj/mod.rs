@@ -5,20 +5,20 @@
 
 pub(crate) mod build;
 mod file;
-mod frame;
-mod library;
+pub(crate) mod frame;
+pub(crate) mod library;
 mod materials;
 pub(crate) mod mesh;
 mod mtl;
 mod normals;
-mod notes;
+pub(crate) mod notes;
 mod number;
 mod polygon;
 mod runs;
 mod scan;
 mod tangents;
 mod text;
-mod textures;
+pub(crate) mod textures;
 
 pub use file::{Library, ObjFile, parse};
 pub use mtl::{Contents, Map, Material, parse_mtl};

@@ -2,7 +2,10 @@
 
 mod assemble;
 mod bake;
+mod check;
 mod config;
+mod diff;
+mod explain;
 mod generate;
 mod inspect;
 mod library;
@@ -42,6 +45,7 @@ pub(crate) fn run(program: &Program, call: &Call) -> Result<(), Failure> {
         Program::Library(room) => library::run(call, room),
         Program::View => view::run(call),
         Program::Pack => pack::run(call),
+        Program::Check => check::run(call),
         Program::Foliar => {
             let (name, matches) = call.matches.subcommand().unwrap_or(("", call.matches));
             let call = Call { matches, ..*call };
@@ -51,6 +55,8 @@ pub(crate) fn run(program: &Program, call: &Call) -> Result<(), Failure> {
                 "assemble" => assemble::run(&call),
                 "strip" => strip::run(&call),
                 "config" => config::run(&call),
+                "explain" => explain::run(&call),
+                "diff" => diff::run(&call),
                 "inspect" => inspect::run(&call),
                 "generate" => generate::run(&call),
                 other => Err(Failure::Fault(format!("command {other:?} is declared and not built"))),

@@ -21,6 +21,8 @@ pub enum Program {
     View,
     /// `foliar-pack`: files that ship.
     Pack,
+    /// `foliar-check`: rules over files.
+    Check,
 }
 
 impl Program {
@@ -28,7 +30,11 @@ impl Program {
     pub fn all(bakers: &[&dyn Baker]) -> Vec<Program> {
         let program = |room: String, alone| if alone { Program::Library(room) } else { Program::Room(room) };
         let rooms = bakers.iter().map(|baker| program(baker.room().into(), baker.needs().nothing()));
-        [Program::Foliar, Program::Import].into_iter().chain(rooms).chain([Program::View, Program::Pack]).collect()
+        [Program::Foliar, Program::Import]
+            .into_iter()
+            .chain(rooms)
+            .chain([Program::View, Program::Pack, Program::Check])
+            .collect()
     }
 
     /// Name of the binary.
@@ -39,6 +45,7 @@ impl Program {
             Program::Room(room) | Program::Library(room) => format!("foliar-{room}"),
             Program::View => "foliar-view".into(),
             Program::Pack => "foliar-pack".into(),
+            Program::Check => "foliar-check".into(),
         }
     }
 }
@@ -61,6 +68,7 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
         Program::Library(room) => library(command.about(format!("Bakes {}", about(room))), fields, room),
         Program::View => view(command, fields),
         Program::Pack => pack(command, fields),
+        Program::Check => check(command, fields),
     }
 }
 
@@ -81,6 +89,8 @@ fn foliar(command: Command, bakers: &[&dyn Baker], fields: &Fields) -> Command {
         .subcommand(strip(fields))
         .subcommand(config(fields))
         .subcommand(inspect(fields))
+        .subcommand(diff(fields))
+        .subcommand(explain(fields))
         .subcommand(generate())
 }
 
@@ -182,6 +192,48 @@ fn pack(command: Command, fields: &Fields) -> Command {
         .arg(flags::inputs("FILE", "Baked .glb or .gltf files; - is standard input").required(true))
         .arg(flags::output("Output: .glb, .gltf, or - for standard output; not the master itself"));
     common(flags::with_batches(command), fields, Direct::Pack, Leaves::Files)
+}
+
+fn check(command: Command, fields: &Fields) -> Command {
+    let command = command
+        .about("Checks foliage files, ours or not: what is broken, what costs, what a tool lost; status 1 at errors")
+        .arg(
+            flags::inputs("FILE", "OBJ, glTF or GLB files; - is standard input")
+                .num_args(0..)
+                .required_unless_present("after"),
+        )
+        .arg(
+            flags::path("after", "OPTIMIZED.glb", "Checks what another tool made of --master, and says what it lost")
+                .requires("master"),
+        )
+        .arg(flags::path("master", "MASTER.glb", "The file that the checked ones were made from"))
+        .arg(flags::path("baseline", "FILE.json", "Leaves out the findings that this file lists"))
+        .arg(
+            flags::path("write-baseline", "FILE.json", "Writes everything that was found as a baseline; status 0")
+                .conflicts_with("baseline"),
+        );
+    common(command, fields, Direct::Section("check"), Leaves::Answer)
+}
+
+fn diff(fields: &Fields) -> Command {
+    let command = Command::new("diff")
+        .about("Says how two bakes differ, channel by channel; status 1 beyond the tolerance")
+        .arg(flags::inputs("A B", "Two baked files: GLB, glTF or layers").num_args(2).required(true))
+        .arg(
+            Arg::new("tolerance")
+                .long("tolerance")
+                .value_name("STEPS")
+                .value_parser(clap::value_parser!(f64))
+                .help("Visible steps that a value may differ by [default: 1]"),
+        );
+    common(command, fields, Direct::Import, Leaves::Answer)
+}
+
+fn explain(fields: &Fields) -> Command {
+    let command = Command::new("explain")
+        .about("Says what a finding's code means, and how serious it is here; without a code, lists all")
+        .arg(Arg::new("code").value_name("CODE").help("A code, such as GEOMETRY-NAN"));
+    common(command, fields, Direct::Alone("check"), Leaves::Answer)
 }
 
 #[cfg(test)]

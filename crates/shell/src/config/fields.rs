@@ -2,7 +2,7 @@
 //! struct field, and flags, environment names, file keys and help texts come from here.
 
 use foliar_bake::Baker;
-use foliar_schema::{Import, Pack, Roles, Scene, names};
+use foliar_schema::{Check, Import, Pack, Roles, Scene, names};
 use serde_json::{Value, json};
 
 /// What a parameter holds.
@@ -114,6 +114,7 @@ impl Fields {
         fields.add(names::ROOM_BRANCHES, schemars::schema_for!(foliar_structure::branches::BranchParams).to_value())?;
         fields.add("scene", schemars::schema_for!(Scene).to_value())?;
         fields.add("pack", schemars::schema_for!(Pack).to_value())?;
+        fields.add("check", schemars::schema_for!(Check).to_value())?;
         fields.add("view", foliar_view::ViewParams::schema())?;
         for baker in bakers {
             fields.add(baker.room(), baker.schema())?;

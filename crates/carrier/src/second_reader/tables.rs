@@ -1,0 +1,106 @@
+//! The second reader of property tables: class, type, rows, bytes and values of every column of the contract.
+
+use super::{Master, Problem, coded, ensure, float, is_unit, items, number};
+use foliar_schema::{COLUMNS, Column, Element, code, names};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A property table as it was found.
+pub(super) struct Table {
+    pub class: String,
+    pub rows: usize,
+}
+
+impl Master<'_> {
+    /// All tables of the file in their order, foliar's verified: under their own class names.
+    pub fn tables(&self, root: &Value, writes: &BTreeSet<&str>, found: &mut Vec<Problem>) -> Vec<Table> {
+        let metadata = &self.json["extensions"][names::STRUCTURAL_METADATA];
+        let mut own: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+        for (class, property) in writes.iter().filter_map(|w| w.split_once('/')) {
+            own.entry(class).or_default().insert(property);
+        }
+        let mut tables: Vec<Table> = Vec::new();
+        for (t, table) in items(&metadata["propertyTables"]) {
+            let name = table["class"].as_str().unwrap_or("");
+            let class = own.keys().find(|class| root["renamed"][**class].as_str().unwrap_or(class) == name);
+            let rows = number(&table["count"]);
+            let place = format!("/extensions/{}/propertyTables/{t}", names::STRUCTURAL_METADATA);
+            if let Some(class) = class {
+                let once = ensure(tables.iter().all(|t| t.class != *class), || format!("a second table of {class}"));
+                found.extend(coded(&code::CONTRACT_COLLISION, once).map_err(|p| p.at(&place)).err());
+                let definitions = &metadata["schema"]["classes"][name]["properties"];
+                for property in &own[class] {
+                    let view = &self.json["bufferViews"][number(&table["properties"][property]["values"])];
+                    let column = self.column(class, property, &definitions[property], view, rows);
+                    found.extend(column.map_err(|problem| problem.at(&place)).err());
+                }
+            }
+            tables.push(Table { class: class.map_or(name, |c| c).into(), rows });
+        }
+        let there: BTreeSet<String> = tables.iter().map(|t| t.class.clone()).collect();
+        for (class, properties) in own.iter().filter(|(class, _)| !there.contains(**class)) {
+            match self.named_table(root, class, properties, found) {
+                Ok(table) => tables.push(table),
+                Err(text) => found.extend(coded::<()>(&code::CONTRACT_TABLE, Err(text)).err()),
+            }
+        }
+        tables
+    }
+
+    /// A table that the root extension holds by the names of its views.
+    fn named_table(
+        &self,
+        root: &Value,
+        class: &str,
+        properties: &BTreeSet<&str>,
+        found: &mut Vec<Problem>,
+    ) -> Result<Table, String> {
+        let named = &root["tables"][class];
+        let rows = named["count"].as_u64().ok_or(format!("there is no table {class}"))? as usize;
+        for property in properties.iter().filter(|_| rows > 0) {
+            let definition = &named["properties"][property];
+            let views = &self.json["bufferViews"];
+            let view = items(views).map(|(_, v)| v).find(|v| v["name"] == definition["bufferView"]);
+            let view = view.ok_or(format!("{class}/{property} has no view"))?;
+            found.extend(self.column(class, property, definition, view, rows).err());
+        }
+        Ok(Table { class: class.into(), rows })
+    }
+
+    fn column(
+        &self,
+        class: &str,
+        property: &str,
+        definition: &Value,
+        view: &Value,
+        rows: usize,
+    ) -> Result<(), Problem> {
+        let Some(column) = COLUMNS.iter().find(|c| c.class == class && c.name == property) else { return Ok(()) };
+        let at = format!("{class}/{property}");
+        let bytes = coded(&code::CONTRACT_TABLE, self.column_bytes(column, definition, view, rows));
+        let bytes = bytes.map_err(|p| Problem { text: format!("{at}: {}", p.text), ..p })?;
+        if column.element != Element::F32 {
+            return Ok(());
+        }
+        let values: Vec<f64> = (0..bytes.len() / 4).filter_map(|i| float_at(bytes, i)).collect();
+        let range = |holds: bool, what: &str| coded(&code::CONTRACT_RANGE, ensure(holds, || format!("{at} {what}")));
+        range(values.iter().all(|v| v.is_finite()), "is not finite")?;
+        range(property != "area" || values.iter().all(|v| *v >= 0.0), "is negative")?;
+        range(property != "normal" || values.chunks(3).all(is_unit), "holds a normal that is not unit")
+    }
+
+    fn column_bytes(&self, column: &Column, definition: &Value, view: &Value, rows: usize) -> Result<&[u8], String> {
+        let kind = if column.array { "SCALAR" } else { ["SCALAR", "VEC2", "VEC3", "VEC4"][column.width - 1] };
+        let component = if column.element == Element::F32 { "FLOAT32" } else { "INT32" };
+        let fits = definition["type"] == kind && definition["componentType"] == component;
+        ensure(fits, || format!("its class says {definition}"))?;
+        let bytes = self.view(view, 8)?;
+        let wanted = rows.saturating_mul(column.width * 4);
+        ensure(bytes.len() == wanted, || format!("{} bytes for {rows} rows", bytes.len()))?;
+        Ok(bytes)
+    }
+}
+
+fn float_at(bytes: &[u8], index: usize) -> Option<f64> {
+    float(bytes, index * 4)
+}

@@ -1,0 +1,235 @@
+//! How two bakes differ, channel by channel: statistics in visible steps and the worst places.
+
+use foliar_bake::{Array, Layer};
+use foliar_numerics::ErrorStats;
+use foliar_schema::{Channel, channel};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Places that are listed at most.
+const WORST: usize = 3;
+/// A column has no visible step: its greatest number over this stands in for one.
+const COLUMN_STEPS: f64 = 1000.0;
+
+/// One place where two bakes differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spot {
+    /// `mesh 0 primitive 1 vertex 17`, or `foliarLeaf row 3`.
+    pub place: String,
+    /// Value in the first.
+    pub a: Vec<f64>,
+    /// Value in the second.
+    pub b: Vec<f64>,
+    /// How far apart, in steps.
+    pub steps: f64,
+}
+
+/// How one channel or column differs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// Room that wrote it.
+    pub room: String,
+    /// Channel, or `class/property`.
+    pub name: String,
+    /// Values that were compared.
+    pub count: usize,
+    /// Why they cannot be compared: only in one of the files, other counts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub problem: Option<String>,
+    /// Root mean square, steps.
+    pub rms_steps: f64,
+    /// 99.9th percentile, steps.
+    pub p999_steps: f64,
+    /// Largest, steps.
+    pub max_steps: f64,
+    /// The worst places, worst first.
+    pub worst: Vec<Spot>,
+}
+
+impl Difference {
+    /// Whether it is beyond a tolerance in steps.
+    pub fn exceeds(&self, tolerance: f64) -> bool {
+        self.problem.is_some() || self.max_steps > tolerance
+    }
+}
+
+/// How the layers of two files differ: every channel and column of either, by room and name.
+pub fn diff(a: &[Layer], b: &[Layer]) -> Vec<Difference> {
+    let (a, b) = (by_name(a), by_name(b));
+    let names: BTreeSet<&Key> = a.keys().chain(b.keys()).collect();
+    let none = BTreeMap::new();
+    let of = |all: &'_ BTreeMap<Key, _>, key| all.get(key).is_some();
+    let mut all = Vec::new();
+    for key in names {
+        let only = |file: &str| Some(format!("only in {file}"));
+        let problem = match (of(&a, key), of(&b, key)) {
+            (true, false) => only("the first file"),
+            (false, true) => only("the second file"),
+            _ => None,
+        };
+        all.push(one(key, problem, a.get(key).unwrap_or(&none), b.get(key).unwrap_or(&none)));
+    }
+    all
+}
+
+/// Room and name.
+type Key = (String, String);
+/// Arrays by the words for their place.
+type Arrays<'a> = BTreeMap<String, &'a Array>;
+
+fn by_name(layers: &[Layer]) -> BTreeMap<Key, Arrays<'_>> {
+    let mut all: BTreeMap<Key, Arrays> = BTreeMap::new();
+    for layer in layers {
+        let room = &layer.record.room;
+        for (key, array) in &layer.attributes {
+            let place = format!("mesh {} primitive {} vertex", key.place.mesh, key.place.primitive);
+            all.entry((room.clone(), key.name.clone())).or_default().insert(place, array);
+        }
+        for (key, array) in &layer.columns {
+            let name = format!("{}/{}", key.class, key.property);
+            all.entry((room.clone(), name)).or_default().insert(format!("{} row", key.class), array);
+        }
+    }
+    all
+}
+
+fn one(key: &Key, problem: Option<String>, a: &Arrays, b: &Arrays) -> Difference {
+    let problem = problem.or_else(|| a.iter().find_map(|(place, array)| unlike(place, array, b.get(place).copied())));
+    let problem = problem.or_else(|| {
+        let place = b.keys().find(|place| !a.contains_key(*place))?;
+        Some(format!("{place}: only in the second file"))
+    });
+    let mut difference = Difference {
+        room: key.0.clone(),
+        name: key.1.clone(),
+        count: 0,
+        problem,
+        rms_steps: 0.0,
+        p999_steps: 0.0,
+        max_steps: 0.0,
+        worst: Vec::new(),
+    };
+    if difference.problem.is_some() {
+        return difference;
+    }
+    let pairs: Vec<(&String, &Array, &Array)> = a.iter().map(|(place, array)| (place, *array, b[place])).collect();
+    let measure = Measure::of(&key.1, &pairs);
+    let mut spots = Vec::new();
+    let mut steps = Vec::new();
+    for (place, one, other) in pairs {
+        for row in 0..one.rows() {
+            let (p, q) = (values(one, row), values(other, row));
+            let apart = measure.steps(&p, &q);
+            steps.push(apart);
+            if apart > 0.0 {
+                spots.push((apart, place, row, p, q));
+            }
+        }
+    }
+    spots.sort_by(|x, y| y.0.total_cmp(&x.0));
+    spots.truncate(WORST);
+    difference.worst = spots
+        .into_iter()
+        .map(|(steps, place, row, a, b)| Spot { place: format!("{place} {row}"), a, b, steps })
+        .collect();
+    let stats = ErrorStats::of(steps);
+    (difference.count, difference.rms_steps) = (stats.count, stats.rms);
+    (difference.p999_steps, difference.max_steps) = (stats.p999, stats.max);
+    difference
+}
+
+/// Why two arrays cannot be compared.
+fn unlike(place: &str, a: &Array, b: Option<&Array>) -> Option<String> {
+    let Some(b) = b else { return Some(format!("{place}: only in the first file")) };
+    let (p, q) = ((a.rows(), a.width()), (b.rows(), b.width()));
+    let is_float = |array: &Array| matches!(array, Array::F32 { .. });
+    if p != q {
+        return Some(format!("{place}: {} rows of {} in the first file, {} of {} in the second", p.0, p.1, q.0, q.1));
+    }
+    (is_float(a) != is_float(b)).then(|| format!("{place}: floats in one file, integers in the other"))
+}
+
+fn values(array: &Array, row: usize) -> Vec<f64> {
+    let range = row * array.width()..(row + 1) * array.width();
+    match array {
+        Array::F32 { data, .. } => data[range].iter().copied().map(f64::from).collect(),
+        Array::I32 { data, .. } => data[range].iter().copied().map(f64::from).collect(),
+    }
+}
+
+/// How a distance becomes steps.
+enum Measure {
+    /// Angle between unit vectors, a step in radians.
+    Angle(f64),
+    /// Length of the difference.
+    Length(f64),
+}
+
+impl Measure {
+    fn of(name: &str, pairs: &[(&String, &Array, &Array)]) -> Self {
+        match channel(name) {
+            Some(Channel { unit_length: true, step_unit: "degree", visible_step, .. }) => {
+                Measure::Angle(visible_step.to_radians())
+            }
+            Some(channel) => Measure::Length(channel.visible_step),
+            // A number that names a row is the same or another.
+            None if pairs.iter().any(|(_, array, _)| matches!(array, Array::I32 { .. })) => Measure::Length(1.0),
+            None => {
+                let rows = |array: &Array| (0..array.rows()).flat_map(|row| values(array, row)).collect::<Vec<_>>();
+                let all = pairs.iter().flat_map(|(_, a, b)| rows(a).into_iter().chain(rows(b)));
+                let greatest = all.fold(0.0, |most: f64, v| most.max(v.abs()));
+                Measure::Length(greatest.max(f64::MIN_POSITIVE) / COLUMN_STEPS)
+            }
+        }
+    }
+
+    fn steps(&self, a: &[f64], b: &[f64]) -> f64 {
+        let sum = |f: fn(f64, f64) -> f64| a.iter().zip(b).map(|(x, y)| f(*x, *y)).sum::<f64>();
+        let apart = sum(|x, y| (x - y) * (x - y)).sqrt();
+        match self {
+            // Half the chord is the sine of half the angle, which is the angle to within 1 % below 28 degrees.
+            Measure::Angle(step) => 2.0 * (apart / 2.0).min(1.0) / step,
+            Measure::Length(step) => apart / step,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foliar_bake::AttributeKey;
+    use foliar_plant::Place;
+    use foliar_schema::names;
+
+    fn layer(values: &[f32]) -> Layer {
+        let mut layer = Layer::default();
+        layer.record.room = names::ROOM_DENSITY.into();
+        let key = AttributeKey { place: Place::default(), name: names::AMBIENT.into() };
+        layer.attributes.insert(key, Array::scalars(values.to_vec()));
+        layer
+    }
+
+    #[test]
+    fn a_bake_is_the_same_as_itself() {
+        let same = diff(&[layer(&[0.5, 0.25])], &[layer(&[0.5, 0.25])]);
+        assert!(same.len() == 1 && !same[0].exceeds(0.0) && same[0].worst.is_empty(), "{same:?}");
+    }
+
+    #[test]
+    fn the_worst_place_comes_first_with_both_values_and_its_steps() {
+        let found = diff(&[layer(&[0.5, 0.25, 0.75])], &[layer(&[0.5, 0.25 + 2.0 / 255.0, 0.75 + 4.0 / 255.0])]);
+        assert!(
+            (found[0].max_steps - 4.0).abs() < 1e-4 && found[0].exceeds(3.9) && !found[0].exceeds(4.1),
+            "{found:?}"
+        );
+        assert_eq!(found[0].worst[0].place, "mesh 0 primitive 0 vertex 2");
+        assert_eq!(found[0].worst.len(), 2);
+    }
+
+    #[test]
+    fn what_stands_in_one_file_only_or_in_other_numbers_differs_at_any_tolerance() {
+        assert!(diff(&[layer(&[0.5])], &[])[0].exceeds(1e9));
+        let found = diff(&[layer(&[0.5])], &[layer(&[0.5, 0.5])]);
+        assert!(found[0].problem.as_ref().is_some_and(|p| p.contains("1 rows")), "{found:?}");
+    }
+}

@@ -1,0 +1,108 @@
+//! Every rule on its two fixtures: the one that triggers it gives its code and nothing else but what follows from the
+//! same fault, the sound one gives nothing at all.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use foliar_carrier::survey::survey;
+use foliar_check::{Settings, check};
+use foliar_schema::{CODES, Import, Unit, Up};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Codes that checking never gives: they are about making files, or their own crates test them on whole trees.
+const ELSEWHERE: &[&str] = &[
+    "BRANCH-FUSED",
+    "BRANCH-ISLAND",
+    "BRANCH-LEVELS",
+    "BRANCH-UNSURE",
+    "IMPORT-BUMP",
+    "IMPORT-DEGENERATE",
+    "IMPORT-LYING",
+    "IMPORT-TEXTURE",
+    "LEAF-ZERO-AREA",
+    "NAME-TAKEN",
+    "NEIGHBOR-COINCIDES",
+    "PACK-BUDGET",
+    "PACK-LEFT-OUT",
+    "QUALITY-MISSED",
+    "ROLE-MIXED",
+    "ROLE-UNMATCHED",
+    "ROLE-UNSURE",
+    "STALE-UNKNOWN",
+];
+
+/// What else one fault gives, each with the reason.
+const FOLLOWS: &[(&str, &[&str])] = &[
+    // Blended leaves are one finding about the file, and another beside the master.
+    ("LOST-ALPHA", &["ALPHA-BLENDED"]),
+    // A tool that drops attributes, ids or tables drops our extension too; what its mirror names is missing then.
+    // and its records speak of another file.
+    ("LOST-CHANNEL", &["LOST-EXTENSION", "STALE"]),
+    ("LOST-ID", &["LOST-EXTENSION", "STALE"]),
+    ("LOST-TABLE", &["LOST-EXTENSION", "STALE"]),
+];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/check")
+}
+
+fn codes_of(file: &str, code: &str) -> BTreeSet<String> {
+    let mut settings = Settings {
+        import: Import { up: Some(Up::Y), unit: Some(Unit::M), ..Import::default() },
+        ..Settings::default()
+    };
+    match code {
+        "IMPORT-UP" => settings.import.up = None,
+        "IMPORT-UNIT" => settings.import.unit = None,
+        "REQUIRED-MISSING" => settings.check.require = vec!["wind".into()],
+        _ => {}
+    }
+    let bytes = |name: &str| std::fs::read(folder().join(name)).unwrap();
+    let master = survey(bytes("master.gltf"), "master.gltf", &folder(), &settings.import);
+    let master = code.starts_with("LOST-").then_some(&master);
+    let checked = check(bytes(file), file, &folder(), &settings, master).unwrap();
+    checked.findings.into_iter().map(|finding| finding.code).collect()
+}
+
+/// The fixture of a code, and the sound file that it was made from.
+fn pair(code: &str) -> (String, &'static str) {
+    let name = code.to_lowercase();
+    match code {
+        "IMPORT-UP" | "IMPORT-UNIT" | "REQUIRED-MISSING" => ("sound.obj".into(), "master.gltf"),
+        _ if folder().join(format!("{name}.obj")).exists() => (format!("{name}.obj"), "sound.obj"),
+        _ => {
+            let of_master =
+                ["CONTRACT-", "LOST-", "STALE", "RECORD-", "LEAF-UNBOUND"].iter().any(|p| code.starts_with(p));
+            (format!("{name}.gltf"), if of_master { "master.gltf" } else { "sound.gltf" })
+        }
+    }
+}
+
+#[test]
+fn every_rule_is_exact_on_its_two_fixtures() {
+    let mut wrong = Vec::new();
+    for info in CODES.iter().filter(|info| !ELSEWHERE.contains(&info.code)) {
+        let (bad, good) = pair(info.code);
+        let follows = FOLLOWS.iter().find(|(code, _)| *code == info.code).map_or(&[][..], |(_, follows)| follows);
+        let expected: BTreeSet<String> = follows.iter().chain([&info.code]).map(|code| code.to_string()).collect();
+        let found = codes_of(&bad, info.code);
+        if found != expected {
+            wrong.push(format!("{bad}: {found:?}, should be {expected:?}"));
+        }
+        let usual = if info.code == "REQUIRED-MISSING" { "" } else { info.code };
+        let sound = codes_of(good, usual);
+        if !sound.is_empty() {
+            wrong.push(format!("{good} for {}: {sound:?}, should be none", info.code));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_fixture_belongs_to_a_rule() {
+    for entry in std::fs::read_dir(folder()).unwrap() {
+        let stem = entry.unwrap().path().file_stem().unwrap().to_string_lossy().to_uppercase();
+        let known = ["SOUND", "MASTER"].contains(&stem.as_str()) || CODES.iter().any(|info| info.code == stem);
+        assert!(known, "{stem} is no code");
+    }
+}

@@ -1,0 +1,49 @@
+//! `foliar-check`: what it reports, and the status that says so.
+
+use crate::common::{CHECK, FOLIAR, folder, output, run, run_in, text, tree};
+
+#[test]
+fn a_sound_tree_passes_as_obj_and_as_master() {
+    let here = folder();
+    let (obj, out) = (tree(here.path(), 40), output("check.glb"));
+    run(CHECK, &[text(&obj)]).expect(0, &[]);
+    run(FOLIAR, &["bake", text(&obj), "-o", text(&out)]).expect(0, &[]);
+    let said = run(CHECK, &[text(&out), "--require", "density,structure"]).expect(0, &[]).stdout;
+    assert!(said.contains("0 errors"), "{said}");
+    let missing = run(CHECK, &[text(&out), "--require", "wind"]).expect(1, &["1 findings"]).stdout;
+    assert!(missing.contains("error[REQUIRED-MISSING]") && missing.contains("holds"), "{missing}");
+    run(CHECK, &[text(&out), "--require", "winf"]).expect(2, &["no such room or channel"]);
+}
+
+#[test]
+fn a_broken_file_is_reported_and_only_an_unreadable_one_is_status_3() {
+    let here = folder();
+    std::fs::write(here.path().join("cut.glb"), b"glTF").unwrap();
+    std::fs::write(here.path().join("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n").unwrap();
+    let said = run_in(here.path(), CHECK, &["cut.glb"]).expect(1, &[]).stdout;
+    assert!(said.contains("error[FILE-BROKEN] cut.glb"), "{said}");
+    let said = run_in(here.path(), CHECK, &["bad.obj"]).expect(1, &[]).stdout;
+    assert!(said.contains("error[GEOMETRY-NAN] bad.obj, line 3"), "{said}");
+    run_in(here.path(), CHECK, &["none.glb"]).expect(3, &["none.glb: cannot be read"]);
+    run_in(here.path(), CHECK, &["bad.obj", "none.glb"]).expect(5, &["1 of 2"]);
+}
+
+#[test]
+fn severities_limits_and_baselines_decide_the_status() {
+    let here = folder();
+    let obj = tree(here.path(), 40);
+    run(CHECK, &[text(&obj), "--fail-on", "note"]).expect(1, &["severity note or above"]);
+    let off = ["--severity", "IMPORT-UP=off", "--severity", "IMPORT-UNIT=off"];
+    run(CHECK, &[&[text(&obj), "--fail-on", "note"], &off[..]].concat()).expect(0, &[]);
+    run(CHECK, &[text(&obj), "--severity", "IMPORT-UP=error"]).expect(1, &[]);
+    std::fs::write(here.path().join("foliar.toml"), "[check]\nseverity = ['IMPORT-UP=error']\n").unwrap();
+    run(CHECK, &[text(&obj)]).expect(1, &[]);
+    let explained = run_in(here.path(), FOLIAR, &["explain", "import-up"]).expect(0, &[]).stdout;
+    assert!(explained.contains("IMPORT-UP: note, here error"), "{explained}");
+    run_in(here.path(), FOLIAR, &["explain", "IMPORT-UPP"]).expect(2, &["did you mean IMPORT-UP?"]);
+    let known = here.path().join("known.json");
+    run(CHECK, &[text(&obj), "--write-baseline", text(&known)]).expect(0, &["known findings"]);
+    let said = run(CHECK, &[text(&obj), "--baseline", text(&known)]).expect(0, &[]).stdout;
+    assert!(said.contains("known from the baseline"), "{said}");
+    run(CHECK, &[text(&obj), "--baseline", text(&obj)]).expect(2, &["no baseline"]);
+}
