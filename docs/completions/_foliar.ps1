@@ -31,6 +31,8 @@ Register-ArgumentCompleter -Native -CommandName 'foliar' -ScriptBlock {
             [CompletionResult]::new('strip', 'strip', [CompletionResultType]::ParameterValue, 'Takes every layer out of a file again: what comes back is the base')
             [CompletionResult]::new('config', 'config', [CompletionResultType]::ParameterValue, 'Prints every parameter with its value and where that came from')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Prints what a file holds: parts, roles, leaves, channels, records')
+            [CompletionResult]::new('diff', 'diff', [CompletionResultType]::ParameterValue, 'Says how two bakes differ, channel by channel; status 1 beyond the tolerance')
+            [CompletionResult]::new('explain', 'explain', [CompletionResultType]::ParameterValue, 'Says what a finding''s code means, and how serious it is here; without a code, lists all')
             [CompletionResult]::new('generate', 'generate', [CompletionResultType]::ParameterValue, 'Writes man pages, shell completions, help texts or JSON schemas into a folder')
             [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
             break
@@ -239,6 +241,51 @@ Register-ArgumentCompleter -Native -CommandName 'foliar' -ScriptBlock {
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break
         }
+        'foliar;diff' {
+            [CompletionResult]::new('--tolerance', '--tolerance', [CompletionResultType]::ParameterName, 'Visible steps that a value may differ by [default: 1]')
+            [CompletionResult]::new('--up', '--up', [CompletionResultType]::ParameterName, 'Axis of an OBJ that points up; nothing said means y.')
+            [CompletionResult]::new('--height-m', '--height-m', [CompletionResultType]::ParameterName, 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]')
+            [CompletionResult]::new('--node', '--node', [CompletionResultType]::ParameterName, 'Node of a glTF to bake, by name, with everything below it.')
+            [CompletionResult]::new('--scene', '--scene', [CompletionResultType]::ParameterName, 'Scene of a glTF to bake, by number. [at least 0]')
+            [CompletionResult]::new('--expand-instances', '--expand-instances', [CompletionResultType]::ParameterName, 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).')
+            [CompletionResult]::new('--search', '--search', [CompletionResultType]::ParameterName, 'Folders outside the asset''s own that textures and buffers may be read from.')
+            [CompletionResult]::new('--texture', '--texture', [CompletionResultType]::ParameterName, 'Loose images for parts without one: PART=FILE.')
+            [CompletionResult]::new('--unit', '--unit', [CompletionResultType]::ParameterName, 'Unit of length of an OBJ; nothing said means m.')
+            [CompletionResult]::new('--set', '--set', [CompletionResultType]::ParameterName, 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all')
+            [CompletionResult]::new('--config', '--config', [CompletionResultType]::ParameterName, 'Reads this configuration instead of the project''s foliar.toml')
+            [CompletionResult]::new('--report', '--report', [CompletionResultType]::ParameterName, 'Writes what was read, found, made and measured')
+            [CompletionResult]::new('--depfile', '--depfile', [CompletionResultType]::ParameterName, 'Writes every file that was really read, as a rule for make or ninja')
+            [CompletionResult]::new('--fail-on', '--fail-on', [CompletionResultType]::ParameterName, 'Findings as serious as this end the work with status 1, the old output left as it is')
+            [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Works in so many threads; the result is the same for any number')
+            [CompletionResult]::new('--format', '--format', [CompletionResultType]::ParameterName, 'How results are printed: for people, as JSON lines, or the findings for machines that show them')
+            [CompletionResult]::new('--no-config', '--no-config', [CompletionResultType]::ParameterName, 'Reads neither foliar.toml nor the asset''s own file')
+            [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Prints errors only')
+            [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Prints errors only')
+            [CompletionResult]::new('-v', '-v', [CompletionResultType]::ParameterName, 'Prints each step with its time')
+            [CompletionResult]::new('--verbose', '--verbose', [CompletionResultType]::ParameterName, 'Prints each step with its time')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
+        'foliar;explain' {
+            [CompletionResult]::new('--require', '--require', [CompletionResultType]::ParameterName, 'Rooms or channels that the file must hold: `wind,density`.')
+            [CompletionResult]::new('--severity', '--severity', [CompletionResultType]::ParameterName, 'How serious a code is here: CODE=off, CODE=note, CODE=warning or CODE=error.')
+            [CompletionResult]::new('--set', '--set', [CompletionResultType]::ParameterName, 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all')
+            [CompletionResult]::new('--config', '--config', [CompletionResultType]::ParameterName, 'Reads this configuration instead of the project''s foliar.toml')
+            [CompletionResult]::new('--report', '--report', [CompletionResultType]::ParameterName, 'Writes what was read, found, made and measured')
+            [CompletionResult]::new('--depfile', '--depfile', [CompletionResultType]::ParameterName, 'Writes every file that was really read, as a rule for make or ninja')
+            [CompletionResult]::new('--fail-on', '--fail-on', [CompletionResultType]::ParameterName, 'Findings as serious as this end the work with status 1, the old output left as it is')
+            [CompletionResult]::new('--threads', '--threads', [CompletionResultType]::ParameterName, 'Works in so many threads; the result is the same for any number')
+            [CompletionResult]::new('--format', '--format', [CompletionResultType]::ParameterName, 'How results are printed: for people, as JSON lines, or the findings for machines that show them')
+            [CompletionResult]::new('--no-config', '--no-config', [CompletionResultType]::ParameterName, 'Reads neither foliar.toml nor the asset''s own file')
+            [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Prints errors only')
+            [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Prints errors only')
+            [CompletionResult]::new('-v', '-v', [CompletionResultType]::ParameterName, 'Prints each step with its time')
+            [CompletionResult]::new('--verbose', '--verbose', [CompletionResultType]::ParameterName, 'Prints each step with its time')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
+            break
+        }
         'foliar;generate' {
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
@@ -251,6 +298,8 @@ Register-ArgumentCompleter -Native -CommandName 'foliar' -ScriptBlock {
             [CompletionResult]::new('strip', 'strip', [CompletionResultType]::ParameterValue, 'Takes every layer out of a file again: what comes back is the base')
             [CompletionResult]::new('config', 'config', [CompletionResultType]::ParameterValue, 'Prints every parameter with its value and where that came from')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Prints what a file holds: parts, roles, leaves, channels, records')
+            [CompletionResult]::new('diff', 'diff', [CompletionResultType]::ParameterValue, 'Says how two bakes differ, channel by channel; status 1 beyond the tolerance')
+            [CompletionResult]::new('explain', 'explain', [CompletionResultType]::ParameterValue, 'Says what a finding''s code means, and how serious it is here; without a code, lists all')
             [CompletionResult]::new('generate', 'generate', [CompletionResultType]::ParameterValue, 'Writes man pages, shell completions, help texts or JSON schemas into a folder')
             [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
             break
@@ -271,6 +320,12 @@ Register-ArgumentCompleter -Native -CommandName 'foliar' -ScriptBlock {
             break
         }
         'foliar;help;inspect' {
+            break
+        }
+        'foliar;help;diff' {
+            break
+        }
+        'foliar;help;explain' {
             break
         }
         'foliar;help;generate' {

@@ -32,6 +32,8 @@ complete -c foliar -n "__fish_foliar_needs_command" -f -a "assemble" -d 'Puts la
 complete -c foliar -n "__fish_foliar_needs_command" -f -a "strip" -d 'Takes every layer out of a file again: what comes back is the base'
 complete -c foliar -n "__fish_foliar_needs_command" -f -a "config" -d 'Prints every parameter with its value and where that came from'
 complete -c foliar -n "__fish_foliar_needs_command" -f -a "inspect" -d 'Prints what a file holds: parts, roles, leaves, channels, records'
+complete -c foliar -n "__fish_foliar_needs_command" -f -a "diff" -d 'Says how two bakes differ, channel by channel; status 1 beyond the tolerance'
+complete -c foliar -n "__fish_foliar_needs_command" -f -a "explain" -d 'Says what a finding\'s code means, and how serious it is here; without a code, lists all'
 complete -c foliar -n "__fish_foliar_needs_command" -f -a "generate" -d 'Writes man pages, shell completions, help texts or JSON schemas into a folder'
 complete -c foliar -n "__fish_foliar_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c foliar -n "__fish_foliar_using_subcommand bake" -s o -l output -d 'Output: .glb, .gltf, .layer (one room alone), or - for standard output' -r -F
@@ -268,12 +270,65 @@ complete -c foliar -n "__fish_foliar_using_subcommand inspect" -l no-config -d '
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s q -l quiet -d 'Prints errors only'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s v -l verbose -d 'Prints each step with its time'
 complete -c foliar -n "__fish_foliar_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l tolerance -d 'Visible steps that a value may differ by [default: 1]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'
+z\t'Z up: turned by -90 degrees about X.'"
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l height-m -d 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l node -d 'Node of a glTF to bake, by name, with everything below it.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l scene -d 'Scene of a glTF to bake, by number. [at least 0]' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l expand-instances -d 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).' -r -f -a "true\t''
+false\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
+cm\t'Centimeter.'
+mm\t'Millimeter.'
+in\t'Inch.'
+ft\t'Foot.'"
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -s q -l quiet -d 'Prints errors only'
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -s v -l verbose -d 'Prints each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand diff" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l require -d 'Rooms or channels that the file must hold: `wind,density`.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l severity -d 'How serious a code is here: CODE=off, CODE=note, CODE=warning or CODE=error.' -r
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l set -d 'Gives any parameter, such as density.radius_m=0.3; `foliar config` lists all' -r
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l config -d 'Reads this configuration instead of the project\'s foliar.toml' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l report -d 'Writes what was read, found, made and measured' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l depfile -d 'Writes every file that was really read, as a rule for make or ninja' -r -F
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l fail-on -d 'Findings as serious as this end the work with status 1, the old output left as it is' -r -f -a "note\t''
+warning\t''
+error\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l threads -d 'Works in so many threads; the result is the same for any number' -r
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l format -d 'How results are printed: for people, as JSON lines, or the findings for machines that show them' -r -f -a "human\t''
+json\t''
+sarif\t''
+junit\t''
+github\t''"
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -s q -l quiet -d 'Prints errors only'
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -s v -l verbose -d 'Prints each step with its time'
+complete -c foliar -n "__fish_foliar_using_subcommand explain" -s h -l help -d 'Print help'
 complete -c foliar -n "__fish_foliar_using_subcommand generate" -s h -l help -d 'Print help'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "bake" -d 'Bakes trees all the way: import, structure, every room that the scene needs, one glTF'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "rebake" -d 'Repeats a bake from the records inside the files, in place, starting from what was given'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "assemble" -d 'Puts layer files onto a plant; a layer of the same room is replaced'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "strip" -d 'Takes every layer out of a file again: what comes back is the base'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "config" -d 'Prints every parameter with its value and where that came from'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "inspect" -d 'Prints what a file holds: parts, roles, leaves, channels, records'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "generate" -d 'Writes man pages, shell completions, help texts or JSON schemas into a folder'
-complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect generate help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "bake" -d 'Bakes trees all the way: import, structure, every room that the scene needs, one glTF'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "rebake" -d 'Repeats a bake from the records inside the files, in place, starting from what was given'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "assemble" -d 'Puts layer files onto a plant; a layer of the same room is replaced'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "strip" -d 'Takes every layer out of a file again: what comes back is the base'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "config" -d 'Prints every parameter with its value and where that came from'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "inspect" -d 'Prints what a file holds: parts, roles, leaves, channels, records'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "diff" -d 'Says how two bakes differ, channel by channel; status 1 beyond the tolerance'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "explain" -d 'Says what a finding\'s code means, and how serious it is here; without a code, lists all'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "generate" -d 'Writes man pages, shell completions, help texts or JSON schemas into a folder'
+complete -c foliar -n "__fish_foliar_using_subcommand help; and not __fish_seen_subcommand_from bake rebake assemble strip config inspect diff explain generate help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'

@@ -50,7 +50,7 @@ pub(crate) fn check(subject: &Subject, report: &mut Report) -> Vec<String> {
     let seen = subject.seen;
     let root = seen.document.json.get("extensions").and_then(|e| e.get(names::EXTENSION));
     if root.is_none() && seen.foliage().is_some() {
-        let message = "the extension FOLIAR_foliage is gone, its mirror in asset.extras is there: a tool dropped it";
+        let message = "the extension is gone, its mirror in asset.extras is there: a tool dropped it";
         report.say(&code::LOST_EXTENSION, "", message);
     }
     let own = seen.document.list("buffers").first().is_some_and(|buffer| buffer.is_object());

@@ -70,10 +70,8 @@ fn points(part: &Part) -> Vec<u32> {
     let mut order: Vec<u32> = (0..part.positions.len() as u32).collect();
     order.par_sort_unstable_by_key(|vertex| key(*vertex));
     let mut points = vec![0; order.len()];
-    let mut number = 0;
-    for same in order.chunk_by(|a, b| key(*a) == key(*b)) {
-        same.iter().for_each(|vertex| points[*vertex as usize] = number);
-        number += 1;
+    for (number, same) in order.chunk_by(|a, b| key(*a) == key(*b)).enumerate() {
+        same.iter().for_each(|vertex| points[*vertex as usize] = number as u32);
     }
     points
 }

@@ -46,7 +46,7 @@ fn carriers(after: &Survey, master: &Survey, report: &mut Report) {
     let root = |seen: &Survey| seen.document.json["extensions"][names::EXTENSION].is_object();
     let mirror = |seen: &Survey| seen.document.json["asset"]["extras"][names::EXTENSION].is_object();
     if root(master) && !root(after) && !report.has(&code::LOST_EXTENSION) {
-        report.say(&code::LOST_EXTENSION, "", "the extension FOLIAR_foliage of the master is gone");
+        report.say(&code::LOST_EXTENSION, "", "the extension of the master is gone");
     }
     if mirror(master) && !mirror(after) {
         report.say(&code::LOST_MIRROR, "", "the mirror of the master in asset.extras is gone");

@@ -23,7 +23,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     // Every file is looked at, and what was found decides once all have been.
     let options = Options { fail_on: None, keep_going: true, inputs: inputs(&typed, call.matches), ..typed };
     let console = options.console();
-    let sources = Sources::new(call, Direct::Section("check"))?;
+    let sources = Sources::new(call, Direct::Sections(&["check"]))?;
     let asked = Asked::from(call.matches)?;
     let jobs: Vec<Job> = options.inputs.iter().map(|input| Job { input: input.clone(), output: None }).collect();
     let mut found = Found { limit, all: Vec::new(), grave: 0 };

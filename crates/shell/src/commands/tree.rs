@@ -212,7 +212,7 @@ fn check(command: Command, fields: &Fields) -> Command {
             flags::path("write-baseline", "FILE.json", "Writes everything that was found as a baseline; status 0")
                 .conflicts_with("baseline"),
         );
-    common(command, fields, Direct::Section("check"), Leaves::Answer)
+    common(command, fields, Direct::Sections(&["check"]), Leaves::Answer)
 }
 
 fn diff(fields: &Fields) -> Command {
@@ -232,7 +232,7 @@ fn diff(fields: &Fields) -> Command {
 fn explain(fields: &Fields) -> Command {
     let command = Command::new("explain")
         .about("Says what a finding's code means, and how serious it is here; without a code, lists all")
-        .arg(Arg::new("code").value_name("CODE").help("A code, such as GEOMETRY-NAN"));
+        .arg(Arg::new("code").value_name("CODE").help("A code, as findings show it in brackets"));
     common(command, fields, Direct::Alone("check"), Leaves::Answer)
 }
 
