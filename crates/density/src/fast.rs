@@ -167,7 +167,7 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
     if params.wants_normals() && params.normals == NormalMode::Surface {
         let (plan, field) = (SkyPlan::of_leaves(plant, foliage, places, params), hull::field(foliage));
         let unit = density_unit(foliage, params, |queries| field.densities(queries));
-        let surface = hull::surface(foliage, &field, unit, params)?;
+        let surface = hull::surface(foliage, unit, params)?;
         let toward = hull::directions(surface, &field, &plan.queries);
         values.normals = realigned(plant, places, &plan.of_place, &toward, params);
         values.reference = Some(unit);

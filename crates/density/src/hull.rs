@@ -5,7 +5,7 @@ use crate::fast::density_unit;
 use crate::field::{Field, Query};
 use crate::generators::Foliage;
 use crate::params::Params;
-use crate::surface::{Balls, DensityField, Surface, SurfaceError, SurfaceParams, extract, nearest};
+use crate::surface::{Balls, DensityField, Surface, SurfaceError, SurfaceParams, extract_fast, nearest};
 use foliar_bake::{BakeError, Hull};
 use foliar_plant::Plant;
 use glam::DVec3;
@@ -20,9 +20,17 @@ pub(crate) fn field(foliage: &Foliage) -> Field {
 /// # Errors
 /// [`BakeError::Parameter`] for a threshold of 0, and for cells larger than the radius or too small for the
 /// memory allowed.
-pub(crate) fn surface(
+pub(crate) fn surface(foliage: &Foliage, unit: f64, params: &Params) -> Result<Surface, BakeError> {
+    surface_by(extract_fast, foliage, unit, params)
+}
+
+/// [`surface`], meshed by `extract`.
+///
+/// # Errors
+/// As [`surface`].
+pub(crate) fn surface_by(
+    extract: impl FnOnce(&Balls, &SurfaceParams) -> Result<Surface, SurfaceError>,
     foliage: &Foliage,
-    field: &impl DensityField,
     unit: f64,
     params: &Params,
 ) -> Result<Surface, BakeError> {
@@ -32,7 +40,7 @@ pub(crate) fn surface(
         memory_mb: params.surface_memory_mb,
         ..SurfaceParams::default()
     };
-    extract(field, &balls, &meshing).map_err(refusal)
+    extract(&balls, &meshing).map_err(refusal)
 }
 
 /// The outside of the surface as a mesh in the scene's rest frame, without the walls of its cavities.
@@ -42,7 +50,7 @@ pub(crate) fn surface(
 pub(crate) fn around(plant: &Plant, foliage: &Foliage, params: &Params) -> Result<Hull, BakeError> {
     let field = field(foliage);
     let unit = density_unit(foliage, params, |queries| field.densities(queries));
-    let found = surface(foliage, &field, unit, params)?;
+    let found = surface(foliage, unit, params)?;
     let Surface { origin, positions, normals, triangles, .. } = found.without_cavities();
     Ok(Hull { origin: plant.center() + origin, positions, normals, triangles })
 }

@@ -67,7 +67,7 @@ impl Baker for Density {
     }
 
     fn version(&self) -> u32 {
-        3
+        4
     }
 
     fn about(&self) -> &'static str {

@@ -9,7 +9,7 @@ use crate::hull;
 use crate::medium::{SkySample, chord, extinction, see};
 use crate::normals::realigned;
 use crate::params::{AmbientTerm, DensityUnit, NormalMode, Params, SelfLeaf};
-use crate::surface::{DensityField, Probe};
+use crate::surface::{DensityField, Probe, extract};
 use foliar_bake::BakeError;
 use foliar_plant::Plant;
 use glam::DVec3;
@@ -100,7 +100,7 @@ pub(crate) fn values(plant: &Plant, foliage: &Foliage, places: &Places, params: 
         if params.wants_normals() && params.normals == NormalMode::Surface {
             let exact = Exact { generators: foliage.own(), radius: foliage.radius };
             let plan = SkyPlan::of_leaves(plant, foliage, places, params);
-            let surface = hull::surface(foliage, &exact, unit, params)?;
+            let surface = hull::surface_by(|balls, meshing| extract(&exact, balls, meshing), foliage, unit, params)?;
             let toward = hull::directions(surface, &exact, &plan.queries);
             values.normals = realigned(plant, places, &plan.of_place, &toward, params);
         }

@@ -59,6 +59,17 @@ pub struct TriangleTree {
 impl TriangleTree {
     /// Builds the tree. Every coordinate must be finite. The same input gives the same tree.
     pub fn new(triangles: &[[Vec3; 3]]) -> Self {
+        TriangleTree::halved(triangles, split)
+    }
+
+    /// Builds the tree by halving the list as it stands: many times faster, and as good where neighbors in the list
+    /// are neighbors in space, as in Morton order. Finds the same in any order.
+    pub fn in_order(triangles: &[[Vec3; 3]]) -> Self {
+        TriangleTree::halved(triangles, |_, _| {})
+    }
+
+    /// Builds the tree by halves that `split` puts in order.
+    fn halved(triangles: &[[Vec3; 3]], split: impl Fn(&mut [Item], usize)) -> Self {
         let mut tree = TriangleTree::default();
         if triangles.is_empty() {
             return tree;
@@ -229,8 +240,8 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_search_over_all_triangles_finds() {
         let triangles = soup(500, 0.3);
-        let tree = TriangleTree::new(&triangles);
-        for query in 0..300 {
+        let trees = [TriangleTree::new(&triangles), TriangleTree::in_order(&triangles)];
+        for (query, tree) in (0..300).flat_map(|query| trees.iter().map(move |tree| (query, tree))) {
             let point = cube_point(9000 + query) * 2.0;
             let found = tree.closest(point).unwrap();
             assert_eq!(found.distance_squared.to_bits(), brute(&triangles, point).to_bits());

@@ -6,9 +6,17 @@ use foliar_numerics::MORTON_BITS;
 use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 
-/// Parts in which the balls near a block are taken, each spread over all of it: inside a crown the first
-/// one or two fill the block, and the rest need not be looked at.
-pub(super) const PARTS: usize = 8;
+/// A share of the balls near a block, spread over all of it: every `of`th, from the `index`th on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub index: usize,
+    pub of: usize,
+}
+
+impl Part {
+    /// All balls.
+    pub const ALL: Part = Part { index: 0, of: 1 };
+}
 
 /// Balls, by cube.
 #[derive(Clone, Debug)]
@@ -79,12 +87,12 @@ impl Bins {
     }
 
     /// One part of the balls of the runs: those that reach a box about `middle`, relative to it.
-    pub fn take(&self, runs: &[Run], part: usize, middle: DVec3, half: f32, spots: &mut Vec<Spot>) {
+    pub fn take(&self, runs: &[Run], part: Part, middle: DVec3, half: f32, spots: &mut Vec<Spot>) {
         spots.clear();
         for run in runs {
             let shift = (run.middle - middle).as_vec3().to_array();
-            let skip = (part + PARTS - run.first as usize % PARTS) % PARTS;
-            for spot in self.spots[run.first as usize..run.end as usize].iter().skip(skip).step_by(PARTS) {
+            let skip = (part.index + part.of - run.first as usize % part.of) % part.of;
+            for spot in self.spots[run.first as usize..run.end as usize].iter().skip(skip).step_by(part.of) {
                 let center = std::array::from_fn(|k| spot.center[k] + shift[k]);
                 let [x, y, z] = center.map(|v: f32| (v.abs() - half).max(0.0));
                 if x * x + y * y + z * z < 1.0 {

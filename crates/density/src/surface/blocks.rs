@@ -1,6 +1,6 @@
 //! The sparse lattice: blocks of 8^3 corners wherever a ball reaches, and what each block is.
 
-use super::bins::{Bins, PARTS, Run};
+use super::bins::{Bins, Part, Run};
 use super::splat::{CORNERS, EDGE, Splatter, Spot};
 use crate::Generator;
 use foliar_numerics::{MORTON_BITS, morton3, morton3_inverse};
@@ -8,6 +8,9 @@ use glam::{DVec3, IVec3};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Parts in which a block takes the balls near it: inside a crown the first one or two fill the block, and
+/// the rest need not be looked at.
+const PARTS: usize = 8;
 /// Blocks this far from the origin still have distinct Morton codes.
 const FARTHEST_BLOCK: i32 = (1 << (MORTON_BITS - 1)) - 4;
 /// Bytes of a block without corners of its own.
@@ -154,10 +157,31 @@ impl Lattice {
         let half = (EDGE as f64 - 1.0) / 2.0 * scale;
         let middle = block.as_dvec3() * EDGE as f64 * scale + half;
         self.bins.near(middle - half, middle + half, &mut scratch.runs);
-        (0..PARTS).any(|part| {
+        (0..PARTS).any(|index| {
+            let part = Part { index, of: PARTS };
             self.bins.take(&scratch.runs, part, middle, half as f32, &mut scratch.spots);
             self.splatter.add(&scratch.spots, self.spacing(), full, sums)
         })
+    }
+
+    /// The balls that reach a block's cells, relative to the middle (radii) of them that is returned.
+    pub fn around(&self, block: IVec3, runs: &mut Vec<Run>, spots: &mut Vec<Spot>) -> DVec3 {
+        let scale = self.cell / self.radius;
+        let half = EDGE as f64 / 2.0 * scale;
+        let middle = block.as_dvec3() * EDGE as f64 * scale + half;
+        self.bins.near(middle - half, middle + half, runs);
+        self.bins.take(runs, Part::ALL, middle, half as f32, spots);
+        middle
+    }
+
+    /// Radius of the balls, meters.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// What sums are made with.
+    pub fn splatter(&self) -> Splatter {
+        self.splatter
     }
 }
 

@@ -1,13 +1,15 @@
 //! Marching cubes over the blocks: which lattice edges the surface crosses, and the triangles between.
 
-use super::blocks::{Block, Lattice, block, code, sort};
+use super::blocks::{Block, block, code, sort};
 use super::splat::{CORNERS, EDGE};
-use super::table::{CASES, axis, lower_corner};
+use super::table::{CASES, Case, axis, lower_corner};
 use glam::IVec3;
 use rayon::prelude::*;
 
 /// Corners along an edge of a block with the next block's first.
 const SIDE: usize = EDGE + 1;
+/// Blocks of one task: some thousand vertices.
+pub(super) const TASK: usize = 32;
 /// Newton steps toward a cubic's zero: the guess need not be better than the cubic.
 const POLISH_STEPS: usize = 2;
 /// The bits of one row of corners and the next block's first.
@@ -22,9 +24,13 @@ pub(super) struct Crossing {
     pub axis: usize,
     /// Whether the lower corner is the one inside.
     pub inside_first: bool,
-    /// Where the surface crosses, by interpolation, 0 to 1 from the lower corner.
-    pub at: f32,
+    /// Where the surface crosses, by interpolation, 0 to 1 from the lower corner; `None` where the densities at
+    /// its ends are not known.
+    pub at: Option<f64>,
 }
+
+/// Densities at the corners of a block, where they are known.
+pub(super) type Corner<'a> = dyn Fn(u64) -> Option<&'a [f32; CORNERS]> + Sync + 'a;
 
 /// How crossings are guessed from densities at lattice corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +42,7 @@ pub(super) enum Guess {
 }
 
 /// A block with cells that the surface passes through.
-struct Marched {
+pub(super) struct Marched {
     /// Morton code.
     code: u64,
     /// Bit x of row [z][y]: corner inside.
@@ -75,6 +81,14 @@ impl<'a> Blocks<'a> {
     fn get(self, code: u64) -> Option<&'a Block> {
         self.codes.binary_search(&code).ok().map(|at| &self.states[at])
     }
+
+    /// Densities at a block's corners, where the surface passes between them.
+    pub fn density(self, code: u64) -> Option<&'a [f32; CORNERS]> {
+        match self.get(code) {
+            Some(Block::Mixed(corners)) => Some(&corners.density),
+            _ => None,
+        }
+    }
 }
 
 impl March {
@@ -99,26 +113,34 @@ impl March {
         self.marched.last().map_or(0, |m| m.first.saturating_add(m.count))
     }
 
-    /// All crossings: block by block in Morton order, then by axis, z, y, x.
-    pub fn crossings(&self, lattice: &Lattice, blocks: Blocks, tau: f64, guess: Guess) -> Vec<Crossing> {
-        let mut missing: Vec<u64> = self.marched.iter().flat_map(Marched::ends).collect();
-        sort(&mut missing);
-        missing.retain(|&code| !matches!(blocks.get(code), Some(Block::Mixed(_))));
-        let extra = lattice.densities(&missing);
-        let density = |code: u64| -> &[f32; CORNERS] {
-            match (missing.binary_search(&code), blocks.get(code)) {
-                (Ok(at), _) => &extra[at],
-                (_, Some(Block::Mixed(corners))) => &corners.density,
-                _ => &[0.0; CORNERS],
-            }
-        };
-        self.marched.par_iter().flat_map_iter(|m| m.crossings(&density, tau, guess)).collect()
+    /// Blocks with cells that the surface passes through, in Morton order.
+    pub fn blocks(&self) -> &[Marched] {
+        &self.marched
     }
 
     /// All triangles, block by block in Morton order, counter-clockwise from outside.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        self.marched.par_iter().flat_map_iter(|m| m.triangles(self)).collect()
+        let count = |blocks: &[Marched]| blocks.iter().map(Marched::triangle_count).sum();
+        let counts: Vec<usize> = self.marched.par_chunks(TASK).map(count).collect();
+        let mut triangles = vec![[0; 3]; counts.iter().sum()];
+        let tasks = self.marched.par_chunks(TASK).zip(shares(&mut triangles, counts));
+        tasks.for_each(|(blocks, share)| {
+            let found = blocks.iter().flat_map(|block| block.triangles(self));
+            share.iter_mut().zip(found).for_each(|(to, triangle)| *to = triangle);
+        });
+        triangles
     }
+}
+
+/// A list in parts of these sizes.
+pub(super) fn shares<T>(mut list: &mut [T], sizes: impl IntoIterator<Item = usize>) -> Vec<&mut [T]> {
+    let mut parts = Vec::new();
+    for size in sizes {
+        let (part, rest) = list.split_at_mut(size);
+        parts.push(part);
+        list = rest;
+    }
+    parts
 }
 
 impl Marched {
@@ -145,22 +167,20 @@ impl Marched {
         (!uniform).then_some(Marched { code, rows, crossed, before, first: 0, count })
     }
 
-    /// Blocks that hold an end of one of its crossed edges.
-    fn ends(&self) -> impl Iterator<Item = u64> + use<> {
-        let mut last = [false; 3];
-        for z in 0..EDGE {
-            last[0] |= self.crossed[0][z] & 0x8080_8080_8080_8080 != 0;
-            last[1] |= self.crossed[1][z] >> 56 != 0;
-        }
-        last[2] = self.crossed[2][EDGE - 1] != 0;
-        let (home, own) = (block(self.code), (self.count > 0).then_some(self.code));
-        let next = (0..3).filter(move |&k| last[k]).map(move |k| code(home + IVec3::AXES[k]));
-        own.into_iter().chain(next)
+    /// Its Morton code.
+    pub fn code(&self) -> u64 {
+        self.code
     }
 
-    fn crossings<'a>(&self, density: &impl Fn(u64) -> &'a [f32; CORNERS], tau: f64, guess: Guess) -> Vec<Crossing> {
+    /// How many crossings it has.
+    pub fn vertices(&self) -> usize {
+        self.count as usize
+    }
+
+    /// Its crossings: by axis, z, y, x.
+    pub fn crossings(&self, density: &Corner, tau: f64, guess: Guess, found: &mut Vec<Crossing>) {
         let (own, home) = (density(self.code), block(self.code));
-        let mut found = Vec::with_capacity(self.count as usize);
+        found.clear();
         for axis in 0..3 {
             let next = density(code(home + IVec3::AXES[axis]));
             for z in 0..EDGE {
@@ -169,40 +189,40 @@ impl Marched {
                     let bit = left.trailing_zeros() as usize;
                     left &= left - 1;
                     let at = [bit % EDGE, bit / EDGE, z];
-                    let mut to = at;
-                    to[axis] += 1;
-                    let end = if to[axis] == EDGE { next } else { own };
-                    let ends = [own[index(at)], end[index(to.map(|v| v % EDGE))]].map(|d| f64::from(d) - tau);
-                    let line = zero_between(ends);
-                    let four = (1..EDGE - 2).contains(&at[axis]) && guess == Guess::Cubic;
                     found.push(Crossing {
                         corner: home * EDGE as i32 + IVec3::from_array(at.map(|v| v as i32)),
                         axis,
                         inside_first: self.rows[z][at[1]] >> at[0] & 1 == 1,
-                        at: if four { polish(own, index(at), STRIDES[axis], tau, line) } else { line } as f32,
+                        at: crossed_at([own, next], at, axis, tau, guess),
                     });
                 }
             }
         }
-        found
     }
 
-    fn triangles(&self, march: &March) -> Vec<[u32; 3]> {
-        let next = octet(block(self.code)).map(|code| march.codes.binary_search(&code).ok());
-        let mut found = Vec::with_capacity(2 * self.count as usize);
-        for (z, y) in (0..EDGE).flat_map(|z| (0..EDGE).map(move |y| (z, y))) {
+    /// Cells that the surface passes through, and their cases: by z, y, x.
+    fn cells(&self) -> impl Iterator<Item = ([usize; 3], &'static Case)> + '_ {
+        let cases = &*CASES;
+        (0..EDGE * EDGE).flat_map(move |row| {
+            let (z, y) = (row / EDGE, row % EDGE);
             let rows = [self.rows[z][y], self.rows[z][y + 1], self.rows[z + 1][y], self.rows[z + 1][y + 1]];
-            if rows == [0; 4] || rows == [ROW; 4] {
-                continue;
-            }
-            for x in 0..EDGE {
+            let uniform = rows == [0; 4] || rows == [ROW; 4];
+            (0..if uniform { 0 } else { EDGE }).map(move |x| {
                 let pattern = (0..4).fold(0, |bits, k| bits | (rows[k] >> x & 3) << (2 * k));
-                for triangle in CASES[usize::from(pattern)].triangles() {
-                    found.push(triangle.map(|edge| march.vertex(&next, [x, y, z], edge)));
-                }
-            }
-        }
-        found
+                ([x, y, z], &cases[usize::from(pattern)])
+            })
+        })
+    }
+
+    fn triangle_count(&self) -> usize {
+        self.cells().map(|(_, case)| case.triangles().len()).sum()
+    }
+
+    fn triangles<'a>(&'a self, march: &'a March) -> impl Iterator<Item = [u32; 3]> + 'a {
+        let next = octet(block(self.code)).map(|code| march.codes.binary_search(&code).ok());
+        self.cells().flat_map(move |(cell, case)| {
+            case.triangles().iter().map(move |triangle| triangle.map(|edge| march.vertex(&next, cell, edge)))
+        })
     }
 
     /// Index of a crossing on the edge that leaves `corner` along `axis`.
@@ -247,8 +267,25 @@ fn index([x, y, z]: [usize; 3]) -> usize {
 /// Steps along the axes in a block's list of corners.
 const STRIDES: [usize; 3] = [1, EDGE, EDGE * EDGE];
 
+/// Where the surface crosses the edge that leaves corner `at` of a block along an axis, by the densities of the
+/// block and the next, if they are known.
+fn crossed_at(
+    [own, next]: [Option<&[f32; CORNERS]>; 2],
+    at: [usize; 3],
+    axis: usize,
+    tau: f64,
+    guess: Guess,
+) -> Option<f64> {
+    let mut to = at;
+    to[axis] += 1;
+    let (own, end) = (own?, if to[axis] == EDGE { next? } else { own? });
+    let line = zero_between([own[index(at)], end[index(to.map(|v| v % EDGE))]].map(|d| f64::from(d) - tau));
+    let four = (1..EDGE - 2).contains(&at[axis]) && guess == Guess::Cubic;
+    Some(if four { polish(own, index(at), STRIDES[axis], tau, line) } else { line })
+}
+
 /// Where a line through two values at 0 and 1 is zero, kept within.
-fn zero_between([first, second]: [f64; 2]) -> f64 {
+pub(super) fn zero_between([first, second]: [f64; 2]) -> f64 {
     let across = first - second;
     if across.abs() > 0.0 { (first / across).clamp(0.0, 1.0) } else { 0.5 }
 }

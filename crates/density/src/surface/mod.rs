@@ -13,6 +13,7 @@ mod error;
 mod march;
 mod mesh;
 mod nearest;
+mod probe;
 mod refine;
 mod splat;
 mod table;
@@ -24,9 +25,10 @@ use blocks::{Lattice, TooMuch, touched};
 pub(crate) use dense::dense;
 pub use error::SurfaceError;
 use glam::{DVec3, Vec3};
-use march::{Blocks, Crossing, Guess, March};
+use march::{Blocks, Guess, March};
 pub use mesh::{MeshFaults, Piece, check_mesh, pieces};
 pub use nearest::{Foot, nearest};
+use probe::{Nearby, Prober, Whole};
 use rayon::prelude::*;
 pub use refine::TOLERANCE;
 use refine::{Frame, Vertices};
@@ -118,82 +120,100 @@ pub struct Surface {
 
 /// Cells per radius where nothing is said.
 const CELLS_PER_RADIUS: f64 = 4.0;
-/// Bytes per vertex while a mesh is made: positions, normals, two triangles; crossing, search and query.
-const VERTEX_BYTES: f64 = 48.0 + 160.0;
+/// Bytes per vertex while a mesh is made: position, normal, and two triangles.
+const VERTEX_BYTES: usize = 24 + 24;
 /// Bytes of a block that the surface passes through, with its share of vertices: what a proposed cell is judged by.
-const FULL_BLOCK_BYTES: f64 = 24e3;
+const FULL_BLOCK_BYTES: usize = 24_000;
 /// Bytes of a block that a ball reaches, before anything is known of it.
-const TOUCHED_BYTES: f64 = 64.0;
+const TOUCHED_BYTES: usize = 64;
 const MEGABYTE: f64 = 1e6;
 
-/// Meshes the surface on which the density of `balls`, which `field` knows, is their threshold. No vertices
-/// where the density stays below it everywhere.
+/// Meshes the surface on which the density of `balls` is their threshold; vertices by the same balls in `field`.
+/// No vertices where the density stays below it everywhere.
 ///
 /// # Errors
 /// [`SurfaceError`] for parameters out of range and for cells too small for the memory allowed.
 pub fn extract(field: &impl DensityField, balls: &Balls, params: &SurfaceParams) -> Result<Surface, SurfaceError> {
-    extract_on(field, balls, params, Splatter::best())
+    SurfaceError::check(balls, params)?;
+    let mesher = Mesher::new(balls, params, Splatter::best());
+    let made = mesher.and_then(|m| m.mesh(|| Whole { field, origin: m.frame.origin }));
+    made.map_err(|TooMuch| refusal(balls, params))
 }
 
-/// [`extract`] on the fast field.
+/// [`extract`] by the balls near each block, summed in f32.
 ///
 /// # Errors
 /// As [`extract`].
 pub fn extract_fast(balls: &Balls, params: &SurfaceParams) -> Result<Surface, SurfaceError> {
-    SurfaceError::check(balls, params)?;
-    extract(&Field::new(balls.generators, balls.radius_m), balls, params)
+    extract_on(balls, params, Splatter::best())
 }
 
-fn extract_on(
-    field: &impl DensityField,
-    balls: &Balls,
-    params: &SurfaceParams,
-    splatter: Splatter,
-) -> Result<Surface, SurfaceError> {
+fn extract_on(balls: &Balls, params: &SurfaceParams, splatter: Splatter) -> Result<Surface, SurfaceError> {
     SurfaceError::check(balls, params)?;
-    let cell = params.cell_m.unwrap_or(balls.radius_m / CELLS_PER_RADIUS);
-    let origin = middle(balls.generators);
-    let generators: Vec<Generator> =
-        balls.generators.iter().map(|g| Generator { position: g.position - origin, ..*g }).collect();
-    let frame = Frame { origin, cell, tau: balls.threshold };
-    let budget = params.memory_mb * MEGABYTE;
-    let refined = params.refinement == Refinement::Newton;
-    let guess = if refined { Guess::Cubic } else { Guess::Linear };
-    let (crossings, triangles) =
-        march(&generators, balls.radius_m, frame, budget, (splatter, guess)).map_err(|TooMuch| {
-            let fits = fitting_cell(&generators, balls.radius_m, cell, budget);
-            SurfaceError::Memory { cell_m: cell, memory_mb: params.memory_mb, fits }
-        })?;
-    let vertices = Vertices::new(field, &crossings, frame, refined);
-    let Vertices { positions, normals, residual } = vertices;
-    Ok(Surface { origin, positions, normals, triangles, cell_m: cell, residual })
+    let made = Mesher::new(balls, params, splatter).and_then(|m| m.mesh(|| Nearby::new(&m.lattice)));
+    made.map_err(|TooMuch| refusal(balls, params))
 }
 
-/// Everything but the vertices' places.
-fn march(
-    generators: &[Generator],
-    radius: f64,
+/// Balls in a lattice, ready to be meshed.
+struct Mesher {
+    lattice: Lattice,
+    codes: Vec<u64>,
     frame: Frame,
-    budget: f64,
-    tools: (Splatter, Guess),
-) -> Result<(Vec<Crossing>, Vec<[u32; 3]>), TooMuch> {
-    let codes = touched(generators, radius, frame.cell, (budget / TOUCHED_BYTES) as usize)?;
-    let lattice = Lattice::new(generators, radius, frame.cell, frame.tau, tools.0);
-    let states = lattice.classify(&codes, budget as usize)?;
-    let blocks = Blocks { codes: &codes, states: &states };
-    let march = March::new(blocks);
-    let vertices = march.vertex_count();
-    if vertices == u32::MAX || f64::from(vertices) * VERTEX_BYTES > budget {
-        return Err(TooMuch);
-    }
-    Ok((march.crossings(&lattice, blocks, frame.tau, tools.1), march.triangles()))
+    guess: Guess,
+    /// Bytes.
+    budget: usize,
 }
 
-/// The smallest of the cells twice, four times ... as large whose mesh surely fits, up to the radius.
-fn fitting_cell(generators: &[Generator], radius: f64, cell: f64, budget: f64) -> Option<f64> {
-    let most = (budget / FULL_BLOCK_BYTES) as usize;
-    let fits = |cell: &f64| touched(generators, radius, *cell, most).is_ok();
-    std::iter::successors(Some(2.0 * cell), |cell| Some(2.0 * cell)).take_while(|&cell| cell <= radius).find(fits)
+impl Mesher {
+    fn new(balls: &Balls, params: &SurfaceParams, splatter: Splatter) -> Result<Mesher, TooMuch> {
+        let (radius, origin, cell) = (balls.radius_m, middle(balls.generators), params.cell(balls.radius_m));
+        let generators = relative(balls.generators, origin);
+        let budget = (params.memory_mb * MEGABYTE) as usize;
+        let codes = touched(&generators, radius, cell, budget / TOUCHED_BYTES)?;
+        let lattice = Lattice::new(&generators, radius, cell, balls.threshold, splatter);
+        let guess = if params.refinement == Refinement::Newton { Guess::Cubic } else { Guess::Linear };
+        Ok(Mesher { lattice, codes, frame: Frame { origin, cell, tau: balls.threshold }, guess, budget })
+    }
+
+    /// The mesh, its vertices by probers that `make` makes, one for each thread.
+    fn mesh<P: Prober>(&self, make: impl Fn() -> P + Sync + Send) -> Result<Surface, TooMuch> {
+        let states = self.lattice.classify(&self.codes, self.budget)?;
+        let blocks = Blocks { codes: &self.codes, states: &states };
+        let march = March::new(blocks);
+        let count = march.vertex_count();
+        if count == u32::MAX || (count as usize).saturating_mul(VERTEX_BYTES) > self.budget {
+            return Err(TooMuch);
+        }
+        let density = |code| blocks.density(code);
+        let Vertices { positions, normals, residual } = Vertices::new(&march, &density, (self.frame, self.guess), make);
+        drop(states);
+        let triangles = march.triangles();
+        let Frame { origin, cell, .. } = self.frame;
+        Ok(Surface { origin, positions, normals, triangles, cell_m: cell, residual })
+    }
+}
+
+impl SurfaceParams {
+    /// Edge of a cell around balls of some radius, meters.
+    fn cell(&self, radius: f64) -> f64 {
+        self.cell_m.unwrap_or(radius / CELLS_PER_RADIUS)
+    }
+}
+
+/// Balls relative to another origin.
+fn relative(generators: &[Generator], origin: DVec3) -> Vec<Generator> {
+    generators.iter().map(|g| Generator { position: g.position - origin, ..*g }).collect()
+}
+
+/// What is said where memory does not do: the smallest of the cells twice, four times ... as large whose mesh surely
+/// fits, up to the radius.
+fn refusal(balls: &Balls, params: &SurfaceParams) -> SurfaceError {
+    let (radius, cell, memory_mb) = (balls.radius_m, params.cell(balls.radius_m), params.memory_mb);
+    let generators = relative(balls.generators, middle(balls.generators));
+    let most = (memory_mb * MEGABYTE) as usize / FULL_BLOCK_BYTES;
+    let fits = |cell: &f64| touched(&generators, radius, *cell, most).is_ok();
+    let larger = std::iter::successors(Some(2.0 * cell), |cell| Some(2.0 * cell)).take_while(|&cell| cell <= radius);
+    SurfaceError::Memory { cell_m: cell, memory_mb, fits: { larger }.find(fits) }
 }
 
 /// Middle of the box around the balls.

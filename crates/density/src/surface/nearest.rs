@@ -32,7 +32,8 @@ const TASK: usize = 256;
 pub fn nearest(surface: &Surface, field: &impl DensityField, places: &[DVec3]) -> Option<Vec<Foot>> {
     let corners: Vec<[Vec3; 3]> =
         surface.triangles.par_iter().map(|t| t.map(|v| surface.positions[v as usize])).collect();
-    let tree = TriangleTree::new(&corners);
+    // Triangles are listed block by block in Morton order.
+    let tree = TriangleTree::in_order(&corners);
     let closest = closest(&tree, places, surface)?;
     let points: Vec<DVec3> = closest.par_iter().map(|c| c.point.as_dvec3() + surface.origin).collect();
     let probes = field.probe(&points);

@@ -1,10 +1,12 @@
-//! From crossed lattice edges to vertices: Newton steps along each edge, kept between its ends.
+//! From crossed lattice edges to vertices: Newton steps along each edge, kept between its ends, block by
+//! block.
 //!
 //! A vertex never leaves its edge. So no triangle leaves its cell, and the mesh cannot fold or cut
 //! itself, wherever the steps lead.
 
-use super::march::Crossing;
-use super::{DensityField, Probe};
+use super::Probe;
+use super::march::{Corner, Crossing, Guess, March, Marched, TASK, shares, zero_between};
+use super::probe::Prober;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -55,48 +57,114 @@ impl Frame {
     }
 }
 
+/// Blocks of one task and where their vertices go.
+struct Task<'a> {
+    blocks: &'a [Marched],
+    positions: &'a mut [Vec3],
+    normals: &'a mut [Vec3],
+}
+
 impl Vertices {
-    /// Vertices at the crossings; unless `refined`, where linear interpolation puts them.
-    pub fn new(field: &impl DensityField, crossings: &[Crossing], frame: Frame, refined: bool) -> Vertices {
-        let mut vertices = Vertices {
-            positions: vec![Vec3::ZERO; crossings.len()],
-            normals: vec![Vec3::ZERO; crossings.len()],
-            residual: 0.0,
+    /// Vertices at all crossings of a march, in its order. `make` makes the prober of a thread.
+    pub fn new<P: Prober>(
+        march: &March,
+        density: &Corner,
+        (frame, guess): (Frame, Guess),
+        make: impl Fn() -> P + Sync + Send,
+    ) -> Vertices {
+        let count = march.vertex_count() as usize;
+        let (mut positions, mut normals) = (vec![Vec3::ZERO; count], vec![Vec3::ZERO; count]);
+        let sizes = || march.blocks().chunks(TASK).map(|blocks| blocks.iter().map(Marched::vertices).sum());
+        let places = shares(&mut positions, sizes()).into_iter().zip(shares(&mut normals, sizes()));
+        let task = |(blocks, (positions, normals))| Task { blocks, positions, normals };
+        let tasks: Vec<Task> = march.blocks().chunks(TASK).zip(places).map(task).collect();
+        let work = |(prober, searcher): &mut (P, Searcher), task: Task| {
+            let (mut first, mut residual) = (0, 0.0f64);
+            for block in task.blocks {
+                block.crossings(density, frame.tau, guess, &mut searcher.crossings);
+                let range = first..first + searcher.crossings.len();
+                first = range.end;
+                prober.enter(block.code());
+                let (positions, normals) = (&mut task.positions[range.clone()], &mut task.normals[range]);
+                residual = residual.max(searcher.block(prober, frame, guess, positions, normals));
+            }
+            residual
         };
-        let mut searches: Vec<Search> = crossings.iter().enumerate().map(Search::new).collect();
+        let residuals = tasks.into_par_iter().map_init(|| (make(), Searcher::default()), work);
+        let residual = residuals.reduce(|| 0.0, f64::max);
+        Vertices { positions, normals, residual }
+    }
+}
+
+/// The searches of one block; buffers of one thread.
+#[derive(Default)]
+struct Searcher {
+    crossings: Vec<Crossing>,
+    searches: Vec<Search>,
+    places: Vec<Vec3>,
+    probes: Vec<Probe>,
+}
+
+impl Searcher {
+    /// Steps until all have arrived; once where the guess is all that was asked for. The largest |S / tau - 1|.
+    fn block(
+        &mut self,
+        prober: &mut impl Prober,
+        frame: Frame,
+        guess: Guess,
+        positions: &mut [Vec3],
+        normals: &mut [Vec3],
+    ) -> f64 {
+        self.complete(prober, frame);
+        self.searches.clear();
+        self.searches.extend(self.crossings.iter().enumerate().map(Search::new));
+        let mut residual = 0.0;
         for _ in 0..=MOST_STEPS {
-            vertices.advance(field, crossings, frame, &mut searches);
-            if searches.is_empty() || !refined {
+            self.advance(prober, frame, positions, normals);
+            self.searches.retain(|search| {
+                let open = search.best > TOLERANCE && (search.inside - search.outside).abs() > SHORTEST;
+                residual = if open { residual } else { search.best.max(residual) };
+                open
+            });
+            if self.searches.is_empty() || guess == Guess::Linear {
                 break;
             }
         }
-        vertices.residual = searches.iter().map(|s| s.best).fold(vertices.residual, f64::max);
-        vertices
+        self.searches.iter().map(|s| s.best).fold(residual, f64::max)
     }
 
-    /// One step of all searches; those that have arrived are dropped.
-    fn advance(&mut self, field: &impl DensityField, crossings: &[Crossing], frame: Frame, searches: &mut Vec<Search>) {
-        let at = |s: &Search| frame.position(&crossings[s.index as usize], s.at);
-        let positions: Vec<Vec3> = searches.par_iter().map(at).collect();
-        let places: Vec<DVec3> = positions.par_iter().map(|p| p.as_dvec3() + frame.origin).collect();
-        let probes = field.probe(&places);
-        for ((search, position), probe) in searches.iter_mut().zip(&positions).zip(&probes) {
+    /// Interpolates along edges whose ends lie where no densities were kept.
+    fn complete(&mut self, prober: &mut impl Prober, frame: Frame) {
+        let missing = self.crossings.iter().filter(|crossing| crossing.at.is_none());
+        self.places.clear();
+        self.places.extend(missing.flat_map(|c| [frame.position(c, 0.0), frame.position(c, 1.0)]));
+        if self.places.is_empty() {
+            return;
+        }
+        prober.probe(&self.places, &mut self.probes);
+        let missing = self.crossings.iter_mut().filter(|crossing| crossing.at.is_none());
+        for (crossing, ends) in missing.zip(self.probes.chunks_exact(2)) {
+            crossing.at = Some(zero_between([ends[0].density - frame.tau, ends[1].density - frame.tau]));
+        }
+    }
+
+    /// One step of all searches.
+    fn advance(&mut self, prober: &mut impl Prober, frame: Frame, positions: &mut [Vec3], normals: &mut [Vec3]) {
+        let crossings = &self.crossings;
+        self.places.clear();
+        self.places.extend(self.searches.iter().map(|s| frame.position(&crossings[s.index as usize], s.at)));
+        prober.probe(&self.places, &mut self.probes);
+        for ((search, position), probe) in self.searches.iter_mut().zip(&self.places).zip(&self.probes) {
             let crossing = &crossings[search.index as usize];
             let miss = ((probe.density - frame.tau) / frame.tau).abs();
             let slow = miss > SLOW * search.best;
             if miss < search.best {
                 search.best = miss;
-                self.positions[search.index as usize] = *position;
-                self.normals[search.index as usize] = normal(crossing, probe);
+                positions[search.index as usize] = *position;
+                normals[search.index as usize] = normal(crossing, probe);
             }
             search.step(crossing, probe, frame, slow);
         }
-        let residual = &mut self.residual;
-        searches.retain(|search| {
-            let open = search.best > TOLERANCE && (search.inside - search.outside).abs() > SHORTEST;
-            *residual = if open { *residual } else { residual.max(search.best) };
-            open
-        });
     }
 }
 
@@ -115,7 +183,7 @@ pub(super) fn downhill(gradient: DVec3) -> Option<Vec3> {
 impl Search {
     fn new((index, crossing): (usize, &Crossing)) -> Search {
         let (inside, outside) = if crossing.inside_first { (0.0, 1.0) } else { (1.0, 0.0) };
-        Search { index: index as u32, at: f64::from(crossing.at), inside, outside, best: f64::INFINITY }
+        Search { index: index as u32, at: crossing.at.unwrap_or(0.5), inside, outside, best: f64::INFINITY }
     }
 
     /// Takes what was found at `at` as a new bound, and chooses the next place: Newton's where it lies between

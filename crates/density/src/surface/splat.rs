@@ -1,7 +1,7 @@
-//! Density at the corners of a block of the lattice: ball after ball is added to all of them (Luft07
-//! eq. 2), on whatever vector instructions the processor has.
+//! Density at the corners of a block of the lattice, and with its gradient at places in it: ball after ball
+//! is added to all of them (Luft07 eq. 2), on whatever vector instructions the processor has.
 //!
-//! Each corner's sum is the same sequence of IEEE operations whatever the width of the registers, and
+//! Each sum is the same sequence of IEEE operations whatever the width of the registers, and
 //! rustc fuses nothing: all paths give the same bits.
 
 use crate::Isa;
@@ -22,6 +22,22 @@ pub(super) struct Spot {
     pub center: [f32; 3],
     /// Square root of its weight.
     pub root: f32,
+}
+
+/// Places side by side.
+pub(super) const LANES: usize = 16;
+
+/// Places relative to the middle that the balls are relative to, in radii.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Lanes {
+    pub place: [[f32; LANES]; 3],
+}
+
+/// Density at each of some places, and its gradient in units of 1 / radius before the factor -4.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    pub density: [f32; LANES],
+    pub gradient: [[f32; LANES]; 3],
 }
 
 /// Instructions that this processor was seen to have: only [`Splatter::new`] makes one.
@@ -58,6 +74,21 @@ impl Splatter {
             _ => add_all(spots, spacing, full, sums),
         }
     }
+
+    /// Density and gradient at places.
+    #[cfg_attr(
+        target_arch = "x86_64",
+        expect(unsafe_code, reason = "run-time dispatch, sound for the reason that `add` gives")
+    )]
+    pub fn probe(self, spots: &[Spot], lanes: &Lanes) -> Sums {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => unsafe { probe_avx2(spots, lanes) },
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => unsafe { probe_avx512(spots, lanes) },
+            _ => probe_all(spots, lanes),
+        }
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -70,6 +101,45 @@ fn add_avx2(spots: &[Spot], spacing: f32, full: f32, sums: &mut [f32; CORNERS]) 
 #[target_feature(enable = "avx512f")]
 fn add_avx512(spots: &[Spot], spacing: f32, full: f32, sums: &mut [f32; CORNERS]) -> bool {
     add_all(spots, spacing, full, sums)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn probe_avx2(spots: &[Spot], lanes: &Lanes) -> Sums {
+    probe_all(spots, lanes)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn probe_avx512(spots: &[Spot], lanes: &Lanes) -> Sums {
+    probe_all(spots, lanes)
+}
+
+#[inline(always)]
+fn probe_all(spots: &[Spot], lanes: &Lanes) -> Sums {
+    let (mut total, [x, y, z]) = (Sums::default(), lanes.place);
+    for batch in spots.chunks(BATCH) {
+        let mut sums = Sums::default();
+        for &Spot { center, root } in batch {
+            for lane in 0..LANES {
+                let (dx, dy, dz) = (x[lane] - center[0], y[lane] - center[1], z[lane] - center[2]);
+                let inside = 1.0 - (dx * dx + dy * dy + dz * dz);
+                let inside = root * if inside > 0.0 { inside } else { 0.0 };
+                let slope = root * inside;
+                sums.density[lane] += inside * inside;
+                sums.gradient[0][lane] += slope * dx;
+                sums.gradient[1][lane] += slope * dy;
+                sums.gradient[2][lane] += slope * dz;
+            }
+        }
+        for lane in 0..LANES {
+            total.density[lane] += sums.density[lane];
+            for axis in 0..3 {
+                total.gradient[axis][lane] += sums.gradient[axis][lane];
+            }
+        }
+    }
+    total
 }
 
 #[inline(always)]

@@ -1,6 +1,7 @@
 //! Tests of the room: reference values, laws of the house, laws of its own, extremes, times.
 
 mod extremes;
+mod feet;
 mod field;
 mod golden;
 mod laws;
