@@ -56,6 +56,12 @@ pub(super) struct Scratch {
     spots: Vec<Spot>,
 }
 
+/// Bytes of a list of blocks with its codes.
+pub(super) fn bytes(blocks: &[Block]) -> usize {
+    let mixed = blocks.iter().filter(|block| matches!(block, Block::Mixed(_))).count();
+    blocks.len() * BLOCK_BYTES + mixed * size_of::<Corners>()
+}
+
 /// Half of the range of Morton codes: block 0 is in the middle.
 const MIDDLE: i32 = 1 << (MORTON_BITS - 1);
 

@@ -21,7 +21,7 @@ mod table;
 mod tests;
 
 use crate::{Field, Generator, NO_GROUP, Query};
-use blocks::{Lattice, TooMuch, touched};
+use blocks::{Lattice, TooMuch, bytes, touched};
 pub(crate) use dense::dense;
 pub use error::SurfaceError;
 use glam::{DVec3, Vec3};
@@ -181,7 +181,8 @@ impl Mesher {
         let blocks = Blocks { codes: &self.codes, states: &states };
         let march = March::new(blocks);
         let count = march.vertex_count();
-        if count == u32::MAX || (count as usize).saturating_mul(VERTEX_BYTES) > self.budget {
+        let needed = (count as usize).saturating_mul(VERTEX_BYTES).saturating_add(bytes(&states));
+        if count == u32::MAX || needed > self.budget {
             return Err(TooMuch);
         }
         let density = |code| blocks.density(code);
