@@ -27,6 +27,26 @@ fn a_baked_tree_a_raw_one_and_a_channel_are_drawn() {
 }
 
 #[test]
+fn a_neighbor_stands_where_it_is_put() {
+    let here = folder();
+    let obj = tree(here.path(), 60);
+    let place = |x: &str| format!("{}@{x},0,0", text(&obj));
+    let drawn = |name: &str, more: &[&str]| {
+        let picture = here.path().join(name);
+        run(VIEW, &[&[text(&obj), "-o", text(&picture)], &SMALL[..], more].concat()).expect(0, &[]);
+        std::fs::read(picture).unwrap()
+    };
+    let alone = drawn("alone.png", &[]);
+    let [left, right] = ["-3", "3"].map(|x| drawn(&format!("{x}.png"), &["--neighbor", &place(x)]));
+    let both = drawn("both.png", &["--neighbor", &place("3"), "--neighbor", &place("-3")]);
+    let pictures = [&alone, &left, &right, &both];
+    let differ = |i: usize| pictures.iter().skip(i + 1).all(|other| *other != pictures[i]);
+    assert!((0..4).all(differ), "four pictures of four things");
+    run(VIEW, &[text(&obj), "-o", "x.png", "--neighbor", "gone.obj@1,0,0"]).expect(3, &["gone.obj"]);
+    run(VIEW, &[text(&obj), "-o", "x.png", "--neighbor", "gone.obj"]).expect(2, &["must be FILE@x,y,z"]);
+}
+
+#[test]
 fn a_channel_that_is_not_there_and_a_bad_ending_are_refused() {
     let here = folder();
     let obj = tree(here.path(), 60);
