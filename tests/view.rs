@@ -30,15 +30,17 @@ fn a_baked_tree_a_raw_one_and_a_channel_are_drawn() {
 fn a_neighbor_stands_where_it_is_put() {
     let here = folder();
     let obj = tree(here.path(), 60);
-    let place = |x: &str| format!("{}@{x},0,0", text(&obj));
+    // Smaller: of two equal trees, framed together, nobody could tell which one is the neighbor.
+    let place = |x: &str| format!("{}@{x},0,0,0,0.7", text(&obj));
     let drawn = |name: &str, more: &[&str]| {
         let picture = here.path().join(name);
         run(VIEW, &[&[text(&obj), "-o", text(&picture)], &SMALL[..], more].concat()).expect(0, &[]);
         std::fs::read(picture).unwrap()
     };
-    let alone = drawn("alone.png", &[]);
-    let [left, right] = ["-3", "3"].map(|x| drawn(&format!("{x}.png"), &["--neighbor", &place(x)]));
-    let both = drawn("both.png", &["--neighbor", &place("3"), "--neighbor", &place("-3")]);
+    let alone = drawn("alone.png", &["--azimuth-deg", "0"]);
+    let [left, right] =
+        ["-1.2", "1.2"].map(|x| drawn(&format!("{x}.png"), &["--azimuth-deg", "0", "--neighbor", &place(x)]));
+    let both = drawn("both.png", &["--azimuth-deg", "0", "--neighbor", &place("1.2"), "--neighbor", &place("-1.2")]);
     let pictures = [&alone, &left, &right, &both];
     let differ = |i: usize| pictures.iter().skip(i + 1).all(|other| *other != pictures[i]);
     assert!((0..4).all(differ), "four pictures of four things");
