@@ -1,14 +1,14 @@
 //! The trait of all rooms.
 
-use crate::{Array, AttributeKey, BakeError, ColumnKey, FloatRaster, Placed};
-use foliar_plant::{Branches, LEVELS, Plant, Raster};
+use crate::{Array, AttributeKey, BakeError, ColumnKey, FloatRaster, MapRaster, Placed};
+use foliar_plant::{Branches, LEVELS, Plant};
 use foliar_schema::Scene;
 use glam::{DVec3, Vec3};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 /// Named rasters (thickness, normal, color of a leaf).
-pub type Maps = BTreeMap<String, Raster>;
+pub type Maps = BTreeMap<String, MapRaster>;
 
 /// What a room may read. Never another room's layer.
 #[derive(Clone, Copy, Debug)]

@@ -34,6 +34,18 @@ pub enum BakeError {
         /// What to do.
         remedy: String,
     },
+    /// A map that cannot be used.
+    #[error("{room}: map {map} {problem}: {remedy}")]
+    Map {
+        /// The room.
+        room: String,
+        /// Which map.
+        map: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What would be right.
+        remedy: String,
+    },
     /// A value left its channel's declared range: a fault of ours.
     #[error("{room} wrote {channel} = {value} at row {row}: a fault of foliar, please report it")]
     Broken {

@@ -20,5 +20,5 @@ pub use error::BakeError;
 pub use hash::base_hash;
 pub use layer::{AttributeKey, ColumnKey, Layer};
 pub use placement::{Placed, Placement};
-pub use raster::FloatRaster;
+pub use raster::{FloatRaster, MapRaster};
 pub use run::{Request, resolve_params, run};

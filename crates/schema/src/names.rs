@@ -48,6 +48,29 @@ pub const ROOM_NOISE: &str = "noise";
 /// Raster of wind noise, two channels (Kusternig07 section 5).
 pub const RASTER_NOISE: &str = "noise";
 
+/// The room of light through leaves (Kusternig07 section 3.5): lives on maps, no part of a tree yet.
+pub const ROOM_TRANSLUCENCY: &str = "translucency";
+/// Raster shown on the front of a leaf: three coefficients and the mean over directions; green or the one wavelength.
+pub const RASTER_TRANSLUCENCY_FRONT: &str = "translucencyFront";
+/// The same shown on the back.
+pub const RASTER_TRANSLUCENCY_BACK: &str = "translucencyBack";
+/// Ending of a raster of red light.
+pub const BAND_RED: &str = "Red";
+/// Ending of a raster of blue light.
+pub const BAND_BLUE: &str = "Blue";
+/// Map of a leaf's thickness.
+pub const MAP_THICKNESS: &str = "thickness";
+/// Map of where the leaf is.
+pub const MAP_ALPHA: &str = "alpha";
+/// Map of the front's normals.
+pub const MAP_NORMAL_FRONT: &str = "normal-front";
+/// Map of the back's normals.
+pub const MAP_NORMAL_BACK: &str = "normal-back";
+/// Map of the front's relief.
+pub const MAP_HEIGHT_FRONT: &str = "height-front";
+/// Map of the back's relief, outward from the back.
+pub const MAP_HEIGHT_BACK: &str = "height-back";
+
 /// Key of the record in the metadata of a layer file (safetensors).
 pub const LAYER_METADATA_KEY: &str = "foliar";
 /// File ending of a layer on disk.

@@ -5,9 +5,11 @@ mod kernel;
 pub mod light;
 pub mod map;
 mod presets;
+pub mod room;
 #[cfg(test)]
 mod tests;
 pub mod transport;
 
 pub use fit_rt::{FitError, Measured, fit_rt};
 pub use presets::{PRESETS, Preset, Sample};
+pub use room::Translucency;

@@ -2,6 +2,8 @@
 
 use crate::transport::{AddingDoubling, Layer, fresnel_outside, refracted};
 use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Least z of a normal: steeper bumps would gather light without limit.
 const LEAST_NORMAL_Z: f64 = 0.2;
@@ -9,7 +11,8 @@ const LEAST_NORMAL_Z: f64 = 0.2;
 pub const LEAST_TRANSMITTANCE: f64 = 1e-300;
 
 /// Models of the entry.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Entry {
     /// The cosine alone, as Kusternig07 has it: slanting light is overestimated, by 30 to 110 % at 70 degrees.
     Lambert,

@@ -7,10 +7,13 @@ use super::entry::{place, taken};
 use super::{Curve, Entrance, Entry};
 use foliar_numerics::gauss_legendre;
 use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// How the fit weighs directions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Fit {
     /// All alike.
     #[default]

@@ -1,5 +1,8 @@
 //! What a leaf is, texel by texel.
 
+use glam::DVec3;
+use rayon::prelude::*;
+
 /// A leaf is nowhere thinner than this, mm: quantized maps say 0 where they mean thin.
 pub const LEAST_THICKNESS_MM: f64 = 1e-4;
 
@@ -36,4 +39,22 @@ impl LeafMap {
     pub fn normal(&self, at: usize) -> [f32; 3] {
         self.normals.get(at).copied().unwrap_or([0.0, 0.0, 1.0])
     }
+}
+
+/// Unit normals of a height map (mm, rows from the top), by differences over two texels; at the rim of the map over one.
+pub fn normals_from_heights(heights: &[f32], width: usize, texel_mm: [f64; 2]) -> Vec<[f32; 3]> {
+    let rows = heights.len() / width.max(1);
+    let slope = |low: usize, high: usize, steps: usize, texel: f64| {
+        if steps == 0 { 0.0 } else { f64::from(heights[high] - heights[low]) / (steps as f64 * texel) }
+    };
+    let normal = |at: usize| {
+        let (x, y) = (at % width, at / width);
+        let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
+        let (above, below) = (y.saturating_sub(1), (y + 1).min(rows - 1));
+        let right_slope = slope(y * width + left, y * width + right, right - left, texel_mm[0]);
+        let down_slope = slope(above * width + x, below * width + x, below - above, texel_mm[1]);
+        // y is up, rows run down.
+        DVec3::new(-right_slope, down_slope, 1.0).normalize().as_vec3().to_array()
+    };
+    (0..heights.len()).into_par_iter().map(normal).collect()
 }

@@ -1,5 +1,6 @@
 //! From a map of thickness and normals to a map of coefficients.
 
+pub mod by_rule;
 mod fast;
 mod leaf;
 mod pyramid;
@@ -8,6 +9,6 @@ pub mod reference;
 mod tables;
 
 pub use fast::coefficient_map;
-pub use leaf::{LEAST_THICKNESS_MM, LeafMap};
+pub use leaf::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
 pub use recipe::{Model, Recipe, Spreading, Tissue};
 pub use tables::Tables;

@@ -3,9 +3,12 @@
 use crate::kernel::{Spread, mean_medium};
 use crate::light::{Entrance, Entry, Fit};
 use crate::transport::{AddingDoubling, Boundary, DeltaP1, Layer, Medium, Multipole, Totals};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Where energy comes from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Model {
     /// The image series in closed form, as the paper had it; its shape too.
     Multipole,
@@ -17,7 +20,8 @@ pub enum Model {
 }
 
 /// Whether light spreads inside the leaf.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Spreading {
     /// Each texel for itself.
     None,

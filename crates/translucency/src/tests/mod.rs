@@ -3,6 +3,7 @@
 mod fits;
 mod lights;
 mod maps;
+mod room;
 mod slabs;
 
 use serde_json::Value;

@@ -1,0 +1,217 @@
+//! Maps as they came, made into a leaf: thickness in millimeters, unit normals of each side.
+
+use super::params::{NormalFrame, NormalY, Params, Side, refuse};
+use super::{ROOM, finding};
+use crate::map::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
+use foliar_bake::{BakeError, MapRaster, Maps};
+use foliar_schema::{Finding, code, names};
+use serde_json::{Map, Value, json};
+
+/// A texel belongs to the leaf where its alpha reaches this.
+const COVERED: f32 = 0.5;
+/// Relative change of T over that of thickness, for a green leaf of .2 mm at 510 nm: what a step of a map costs.
+const CONTRAST: f64 = 2.87;
+/// Share of the median thickness beyond which a step is worth a warning.
+const COARSE_STEP: f64 = 0.002;
+
+/// A leaf as its maps tell it.
+#[derive(Clone, Debug, Default)]
+pub struct Sheet {
+    /// Texels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    thickness_mm: Vec<f32>,
+    normals: [Vec<[f32; 3]>; 2],
+    /// Edge of a texel, mm.
+    pub texel_mm: f64,
+    /// Least and greatest thickness.
+    pub range_mm: (f64, f64),
+    /// Median thickness.
+    pub median_mm: f64,
+    /// What a person should know.
+    pub findings: Vec<Finding>,
+}
+
+/// A map that cannot be used, and what would be right.
+fn bad(map: &str, problem: impl Into<String>, remedy: impl Into<String>) -> BakeError {
+    BakeError::Map { room: ROOM.into(), map: map.into(), problem: problem.into(), remedy: remedy.into() }
+}
+
+impl Sheet {
+    /// Reads the maps.
+    ///
+    /// # Errors
+    /// [`BakeError`] for maps that are missing, of different size, not numbers, or hold no leaf.
+    pub fn read(maps: &Maps, params: &Params) -> Result<Sheet, BakeError> {
+        let name = names::MAP_THICKNESS;
+        let Some(thickness) = maps.get(name) else { return Err(bad(name, "is missing", "give it")) };
+        let (width, height) = (thickness.raster.width as usize, thickness.raster.height as usize);
+        if width == 0 || height == 0 {
+            return Err(bad(name, format!("has {width} x {height} texels"), "give a map of one texel or more"));
+        }
+        for (other, map) in maps {
+            check(other, map, (width, height))?;
+        }
+        let mut sheet = Sheet { width, height, texel_mm: params.texel_mm(width), ..Sheet::default() };
+        sheet.read_thickness(maps, thickness, params)?;
+        let heights = params.height_scale_mm;
+        for (side, normal, relief) in
+            [(0, names::MAP_NORMAL_FRONT, names::MAP_HEIGHT_FRONT), (1, names::MAP_NORMAL_BACK, names::MAP_HEIGHT_BACK)]
+        {
+            sheet.normals[side] = match (maps.get(normal), maps.get(relief)) {
+                (Some(_), Some(_)) => {
+                    return Err(bad(relief, format!("and {normal} say the same"), "give one of them"));
+                }
+                (Some(map), None) => sheet.normals(normal, map, params),
+                (None, Some(map)) => {
+                    let scale = scale_of(relief, "height_scale_mm", map, heights)?;
+                    let values: Vec<f32> = channel(map).map(|h| h * scale as f32).collect();
+                    normals_from_heights(&values, width, [sheet.texel_mm; 2])
+                }
+                (None, None) => Vec::new(),
+            };
+        }
+        Ok(sheet)
+    }
+
+    fn read_thickness(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
+        let name = names::MAP_THICKNESS;
+        let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
+        let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
+        let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
+        let mut thin = 0;
+        let texel = |(at, value): (usize, f32)| {
+            let d = params.thickness_offset_mm + scale * f64::from(value);
+            if !covered(at, value) {
+                return 0.0;
+            }
+            thin += usize::from(d < LEAST_THICKNESS_MM);
+            d.max(LEAST_THICKNESS_MM) as f32
+        };
+        self.thickness_mm = channel(map).enumerate().map(texel).collect();
+        let leaf = LeafMap { width: self.width, height: self.height, ..LeafMap::default() };
+        let leaf = LeafMap { thickness_mm: std::mem::take(&mut self.thickness_mm), ..leaf };
+        let (range, median) = (leaf.range_mm(), leaf.median_mm());
+        self.thickness_mm = leaf.thickness_mm;
+        let (Some(range), Some(median)) = (range, median) else {
+            return Err(bad(
+                name,
+                "is 0 everywhere: there is no leaf in it",
+                "give a map whose leaf is above 0, or an alpha map",
+            ));
+        };
+        (self.range_mm, self.median_mm) = (range, median);
+        if thin > 0 {
+            let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
+            self.findings.push(finding(&code::MAP_THIN, name, message));
+        }
+        self.warn_of_steps(map, scale);
+        Ok(())
+    }
+
+    /// What the bits of the thickness map cost.
+    fn warn_of_steps(&mut self, map: &MapRaster, scale: f64) {
+        let step = scale / (libm::pow(2.0, f64::from(map.bits)) - 1.0);
+        if map.bits < 32 && step > COARSE_STEP * self.median_mm {
+            let message = format!(
+                "{} bits make steps of {step:.5} mm, {:.1} % of the light that passes at {:.3} mm: 16 bits or floats cost \
+                 nothing",
+                map.bits,
+                100.0 * CONTRAST * step / self.median_mm,
+                self.median_mm
+            );
+            self.findings.push(finding(&code::MAP_BITS, names::MAP_THICKNESS, message));
+        }
+    }
+
+    fn normals(&mut self, name: &str, map: &MapRaster, params: &Params) -> Vec<[f32; 3]> {
+        let channels = map.raster.channels as usize;
+        // Whole numbers store half of n + 1; floats do so too unless any is negative.
+        let signed = map.bits == 32 && map.raster.data.iter().any(|v| *v < 0.0);
+        let decode = |v: f32| if signed { v } else { 2.0 * v - 1.0 };
+        let turn = [
+            if name == names::MAP_NORMAL_BACK && params.normal_frame == NormalFrame::RightHanded { -1.0 } else { 1.0 },
+            if params.normal_y == NormalY::Down { -1.0 } else { 1.0 },
+        ];
+        let mut none = 0;
+        let texel = |values: &[f32]| {
+            let n = [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
+            let length = n.iter().map(|v| v * v).sum::<f32>().sqrt();
+            if length > f32::EPSILON {
+                return n.map(|v| v / length);
+            }
+            none += 1;
+            [0.0, 0.0, 1.0]
+        };
+        let normals = map.raster.data.chunks_exact(channels).map(texel).collect();
+        if none > 0 {
+            let message = format!("{none} normals have no length: taken for straight ones");
+            self.findings.push(finding(&code::MAP_NORMALS, name, message));
+        }
+        normals
+    }
+
+    /// The leaf as light meets it whose map is shown on `side`: the other side is lit.
+    pub fn lit_side(&self, side: Side) -> LeafMap {
+        let lit = match side {
+            Side::Front => &self.normals[1],
+            Side::Back => &self.normals[0],
+        };
+        let (width, height) = (self.width, self.height);
+        LeafMap { width, height, thickness_mm: self.thickness_mm.clone(), normals: lit.clone() }
+    }
+
+    /// What a record says of the whole leaf.
+    pub fn facts(&self, params: &Params, maps: Map<String, Value>) -> Map<String, Value> {
+        let facts = json!({
+            "texelMm": self.texel_mm,
+            "thicknessMm": { "least": self.range_mm.0, "median": self.median_mm, "greatest": self.range_mm.1 },
+            "normalize": params.normalize,
+            "frame": "x image right, y image up, z out of the lit side, which is not the side that shows the map",
+            "decode": "t = max(0, R b1.l + G b2.l + B b3.l) (a0 + a1 l.z), 0 where l.z <= 0; A is the mean over directions",
+            "maps": maps,
+        });
+        facts.as_object().cloned().unwrap_or_default()
+    }
+}
+
+/// First channel of a map.
+fn channel(map: &MapRaster) -> impl Iterator<Item = f32> + '_ {
+    map.raster.data.iter().step_by(map.raster.channels.max(1) as usize).copied()
+}
+
+/// Millimeters of 1 in a map.
+fn scale_of(map: &str, place: &str, raster: &MapRaster, given: Option<f64>) -> Result<f64, BakeError> {
+    match given {
+        Some(scale) => Ok(scale),
+        None if raster.bits == 32 => Ok(1.0),
+        None => Err(refuse(
+            place,
+            format!("must be given: map {map} holds whole numbers, and nothing says how many mm white is"),
+        )),
+    }
+}
+
+/// Size, wholeness, numbers.
+fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result<(), BakeError> {
+    let raster = &map.raster;
+    if (raster.width as usize, raster.height as usize) != (width, height) {
+        let problem =
+            format!("is {} x {} and {} is {width} x {height}", raster.width, raster.height, names::MAP_THICKNESS);
+        return Err(bad(name, problem, "give maps of one size"));
+    }
+    let colors = matches!(name, names::MAP_NORMAL_FRONT | names::MAP_NORMAL_BACK);
+    if !raster.is_whole() || raster.channels == 0 || (colors && raster.channels < 3) {
+        let problem = format!("has {} channels and {} numbers", raster.channels, raster.data.len());
+        return Err(bad(name, problem, "a normal map has three channels, any other at least one"));
+    }
+    match raster.data.iter().position(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(at) => {
+            let texel = at / raster.channels as usize;
+            let problem = format!("is {} at column {}, row {}", raster.data[at], texel % width, texel / width);
+            Err(bad(name, problem, "every texel must be a finite number"))
+        }
+    }
+}
