@@ -53,11 +53,11 @@ pub(crate) fn check(subject: &Subject, report: &mut Report) -> Vec<String> {
         let message = "the extension is gone, its mirror in asset.extras is there: a tool dropped it";
         report.say(&code::LOST_EXTENSION, "", message);
     }
-    let own = seen.document.list("buffers").first().is_some_and(|buffer| buffer.is_object());
-    if !own || report.has(&code::FILE_COMPRESSED) {
+    // A document that was given up early has its JSON and no buffer.
+    let Some(buffer) = seen.document.buffers.first().filter(|_| !report.has(&code::FILE_COMPRESSED)) else {
         return Vec::new();
-    }
-    let (summary, problems) = second_reader::problems(&seen.document.json, &seen.document.buffers[0]);
+    };
+    let (summary, problems) = second_reader::problems(&seen.document.json, buffer);
     for problem in problems {
         report.say(problem.code, problem.place, problem.text);
     }

@@ -98,6 +98,17 @@ fn every_rule_is_exact_on_its_two_fixtures() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Found by mutation: JSON that is read, of a version that is not, leaves buffers that nobody loaded.
+#[test]
+fn a_document_that_is_given_up_early_is_a_finding() {
+    for name in ["sound.gltf", "master.gltf"] {
+        let text = std::fs::read_to_string(folder().join(name)).unwrap();
+        let strange = text.replacen("\"version\": \"2.0\"", "\"version\": \"9.0\"", 1);
+        let checked = check(strange.into_bytes(), name, &folder(), &Settings::default(), None).unwrap();
+        assert_eq!(checked.findings[0].code, "FILE-BROKEN", "{:?}", checked.findings);
+    }
+}
+
 #[test]
 fn every_fixture_belongs_to_a_rule() {
     for entry in std::fs::read_dir(folder()).unwrap() {

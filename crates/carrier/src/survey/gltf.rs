@@ -36,9 +36,9 @@ pub(super) fn look(
     }
     seen.document.selection = Selection { scene: import.scene, node: import.node.clone() };
     container::check_version(&seen.document.json, name)?;
-    let readable = buffers(bin, name, folder, import, seen);
     let compressed = container::check_compression(&seen.document.json, name);
     let is_compressed = compressed.is_err();
+    let readable = buffers(bin, name, folder, import, is_compressed, seen);
     seen.problems.extend(compressed.err().map(|error| Problem::new(Trouble::Compressed, error)));
     images(name, folder, import, seen);
     if readable && !is_compressed {
@@ -55,11 +55,23 @@ fn part_of(mut bytes: Vec<u8>, start: usize, end: usize) -> Vec<u8> {
 }
 
 /// Reads all buffers; whether each could be.
-fn buffers(bin: Option<Vec<u8>>, name: &str, folder: &Path, import: &Import, seen: &mut Survey) -> bool {
+fn buffers(
+    bin: Option<Vec<u8>>,
+    name: &str,
+    folder: &Path,
+    import: &Import,
+    is_compressed: bool,
+    seen: &mut Survey,
+) -> bool {
     let mut own = bin;
     let listed = seen.document.list("buffers").to_vec();
     for (index, buffer) in listed.iter().enumerate() {
         let length = index_of(buffer, "byteLength");
+        // Room for what a decoder makes: no file holds it.
+        if is_compressed && buffer.get("uri").is_none() && buffer.get("extensions").is_some() {
+            seen.document.buffers.push(Vec::new());
+            continue;
+        }
         let embedded = index == 0 && buffer.get("uri").is_none();
         let loaded = match (length, own.take_if(|bin| embedded && length.is_some_and(|l| l <= bin.len()))) {
             (Some(length), Some(mut bin)) => {
