@@ -107,17 +107,16 @@ fn a_layer_of_an_unknown_room_is_kept_whole() {
     let asset = plain();
     let mut layers = layers_for(&asset);
     let place = asset.base.parts[2].place;
-    let mut wind = Layer { roles: Default::default(), ..layers[1].clone() };
-    wind.attributes.clear();
-    wind.attributes.insert(key(place, "_WIND_WEIGHTS"), Array::F32 { width: 4, data: vec![0.25; 16] });
-    wind.attributes.insert(key(place, "BRANCH_ID"), Array::scalars(vec![0.0, 1.0, 2.0, 1.0]));
-    wind.columns.insert(column("foliarBranch", "chain"), Array::I32 { width: 4, data: vec![0, -1, 2, 3, 1, 1, 1, 1] });
-    wind.columns.insert(column("foliarBranch", "spline"), Array::F32 { width: 9, data: vec![0.5; 18] });
-    wind.record.room = "wind".into();
-    wind.record.reads.remove("structure");
-    wind.record.writes =
-        ["BRANCH_ID", "_WIND_WEIGHTS", "foliarBranch/chain", "foliarBranch/spline"].map(String::from).to_vec();
-    layers.push(wind.clone());
+    let mut tide = Layer { roles: Default::default(), ..layers[1].clone() };
+    tide.attributes.clear();
+    tide.attributes.insert(key(place, "_TIDE"), Array::F32 { width: 4, data: vec![0.25; 16] });
+    tide.attributes.insert(key(place, "BRANCH_ID"), Array::scalars(vec![0.0, 1.0, 2.0, 1.0]));
+    tide.columns.insert(column("foliarBranch", "chain"), Array::I32 { width: 4, data: vec![0, -1, 2, 3, 1, 1, 1, 1] });
+    tide.columns.insert(column("foliarBranch", "spline"), Array::F32 { width: 9, data: vec![0.5; 18] });
+    tide.record.room = "tide".into();
+    tide.record.reads.remove("structure");
+    tide.record.writes = ["BRANCH_ID", "_TIDE", "foliarBranch/chain", "foliarBranch/spline"].map(String::from).to_vec();
+    layers.push(tide.clone());
     let mut made = assemble(&asset.document, &layers).unwrap().0;
     // What a newer foliar would say: four numbers are an array there, no vector.
     let chain = "/extensions/EXT_structural_metadata/schema/classes/foliarBranch/properties/chain";
@@ -127,7 +126,7 @@ fn a_layer_of_an_unknown_room_is_kept_whole() {
     let back = from_document(&made);
     assert_eq!(codes(&back.findings), ["RECORD-UNKNOWN"]);
     let kept = &back.layers[2];
-    assert_eq!((&kept.attributes, &kept.columns), (&wind.attributes, &wind.columns));
+    assert_eq!((&kept.attributes, &kept.columns), (&tide.attributes, &tide.columns));
     assert_eq!(back.document.json.to_string(), asset.document.json.to_string());
     let again = assemble(&back.document, &back.layers).unwrap().0;
     assert_eq!(again.json.to_string(), made.json.to_string());

@@ -74,10 +74,10 @@ pub struct Column {
 }
 
 /// Steps and rooms in the order in which files list them.
-pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_DENSITY];
+pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_WIND, names::ROOM_DENSITY];
 
 /// Rooms that the plan names and this version has not.
-pub const LATER_ROOMS: &[&str] = &["wind", "light", "occlusion", "translucency", "fall", "leafscan"];
+pub const LATER_ROOMS: &[&str] = &["light", "occlusion", "translucency", "fall", "leafscan"];
 
 /// Largest id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;
@@ -125,6 +125,35 @@ pub const CHANNELS: &[Channel] = &[
         step_unit: "m",
         neutral: Neutral::Value(0.0),
         doc: "way along the axis of the vertex's branch, from its root; the same all around a ring",
+    },
+    Channel {
+        name: names::WIND_WEIGHTS,
+        room: names::ROOM_WIND,
+        width: 4,
+        roles: &[Role::Leaf, Role::Wood],
+        min: 0.0,
+        max: 1.0,
+        unit_length: false,
+        unit: "1",
+        // Half a pixel at 3 m (1.6 mm) in a storm that moves the tip of a branch of 10 m by 1.5 m.
+        visible_step: 1e-3,
+        step_unit: "1",
+        neutral: Neutral::Value(0.0),
+        doc: "how much of the sway of its branch, and of each ancestor, the vertex takes part in; level 0 to 3",
+    },
+    Channel {
+        name: names::LEAF_WEIGHT,
+        room: names::ROOM_WIND,
+        width: 1,
+        roles: &[Role::Leaf],
+        min: 0.0,
+        max: 1.0,
+        unit_length: false,
+        unit: "1",
+        visible_step: 1.0 / 255.0,
+        step_unit: "1",
+        neutral: Neutral::Value(0.0),
+        doc: "way along the leaf: 0 at the petiole, 1 at the tip",
     },
     Channel {
         name: names::AMBIENT,
@@ -256,6 +285,26 @@ pub const COLUMNS: &[Column] = &[
     ),
     branch_column!(CLASS_AXIS, "offset", F32, 3, false, "m, rest frame", "center of the ring less the branch's pivot"),
     branch_column!(CLASS_AXIS, "radius", F32, 1, false, "m, rest frame", "radius of the ring"),
+    Column {
+        class: names::CLASS_WIND,
+        name: "phase",
+        room: names::ROOM_WIND,
+        element: Element::F32,
+        width: 2,
+        array: false,
+        unit: "tiles of the noise",
+        doc: "where in the noise the branch starts",
+    },
+    Column {
+        class: names::CLASS_WIND,
+        name: "frame",
+        room: names::ROOM_WIND,
+        element: Element::F32,
+        width: 4,
+        array: false,
+        unit: "quaternion x y z w, rest frame",
+        doc: "turns X to the branch's right, Y to its up, Z along it",
+    },
 ];
 
 /// The channel of this name.

@@ -28,6 +28,11 @@ pub const AMBIENT: &str = "_AMBIENT";
 /// Realigned normal (Luft07 section 4), unit, in the mesh's own frame.
 pub const SOFT_NORMAL: &str = "_SOFT_NORMAL";
 
+/// Weights of the four levels of branches, 0 at the bark to 1 at the tip of a level's longest branch (Kusternig07 section 5).
+pub const WIND_WEIGHTS: &str = "_WIND_WEIGHTS";
+/// A leaf's own weight, 0 at the petiole to 1 at the tip.
+pub const LEAF_WEIGHT: &str = "_LEAF_WEIGHT";
+
 /// Table class of leaves; row = leaf id.
 pub const CLASS_LEAF: &str = "foliarLeaf";
 
@@ -35,11 +40,15 @@ pub const CLASS_LEAF: &str = "foliarLeaf";
 pub const CLASS_BRANCH: &str = "foliarBranch";
 /// Table class of the rings that the axes of branches run through, branch by branch, from root to tip.
 pub const CLASS_AXIS: &str = "foliarBranchAxis";
+/// Table class of what moves branches; row = branch id.
+pub const CLASS_WIND: &str = "foliarWind";
 
 /// The step that finds roles and leaves.
 pub const ROOM_STRUCTURE: &str = "structure";
 /// The layer of the branch hierarchy, which structure finds when a room asks for it.
 pub const ROOM_BRANCHES: &str = "branches";
+/// The room of wind (Kusternig07 section 5).
+pub const ROOM_WIND: &str = "wind";
 /// The room of metaball density (Luft07).
 pub const ROOM_DENSITY: &str = "density";
 

@@ -2,12 +2,14 @@
 //!
 //! Baked once for a library, no part of a tree: it needs no plant.
 
+mod field;
 mod measure;
 mod params;
 mod synthesis;
 #[cfg(test)]
 mod tests;
 
+pub use field::Field;
 pub use measure::{Measured, measure};
 pub use params::NoiseParams;
 pub use synthesis::{Mode, modes};
