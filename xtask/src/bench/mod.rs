@@ -14,6 +14,7 @@ mod reading;
 mod shading;
 mod size;
 mod surface;
+pub mod wind;
 
 use anyhow::{Context, Result, bail};
 use gates::Gate;
@@ -66,6 +67,20 @@ const MEASURES: &[Measure] = &[
     ("branches-large-seconds", branches::large_seconds),
     ("branches-memory", branches::memory),
     ("branches-wrong-parents", branches::wrong_parents),
+    ("wind-seconds", wind::seconds),
+    ("wind-large-seconds", wind::large_seconds),
+    ("wind-memory", wind::memory),
+    ("wind-slip", wind::slip),
+    ("wind-slip-most", wind::slip_most),
+    ("wind-slip-16-bits", wind::slip_of_rounding),
+    ("wind-weight-steps", wind::steps),
+    ("wind-leaf-slip", wind::leaf_slip),
+    ("wind-normals", wind::normals),
+    ("wind-frames", wind::frames),
+    ("noise-slope", wind::noise_slope),
+    ("noise-seam", wind::noise_seam),
+    ("noise-correlation", wind::noise_correlation),
+    ("noise-mean", wind::noise_mean),
     ("expected-files", expected::files),
     ("linden-leaves", expected::linden_leaves),
     ("oracle-error", oracle::worst),
