@@ -9,6 +9,7 @@ use std::process::{Command, Output, Stdio};
 pub const FOLIAR: &str = env!("CARGO_BIN_EXE_foliar");
 pub const IMPORT: &str = env!("CARGO_BIN_EXE_foliar-import");
 pub const DENSITY: &str = env!("CARGO_BIN_EXE_foliar-density");
+pub const WIND: &str = env!("CARGO_BIN_EXE_foliar-wind");
 pub const NOISE: &str = env!("CARGO_BIN_EXE_foliar-noise");
 pub const VIEW: &str = env!("CARGO_BIN_EXE_foliar-view");
 pub const PACK: &str = env!("CARGO_BIN_EXE_foliar-pack");

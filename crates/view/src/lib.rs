@@ -16,6 +16,7 @@ mod scale;
 mod scene;
 mod shade;
 mod sheet;
+mod sway;
 mod text;
 mod texture;
 mod values;
@@ -30,6 +31,7 @@ pub use frame::Standing;
 pub use params::{Background, Ground, Look, Normals, Scale, Shading, ViewParams};
 pub use render::{render, render_among};
 pub use sheet::{Panel, bake_sheet, comparison, contact_sheet};
+pub use sway::{FRAME_S, sway_sheet, swaying};
 
 use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png};
 

@@ -137,6 +137,21 @@ impl<'a> Scene<'a> {
         shading: &Shading,
         person: Option<Vec3>,
     ) -> Result<Scene<'a>, ViewError> {
+        Scene::within(&Frame::around(plant, around), plant, layers, around, shading, person)
+    }
+
+    /// The same in a frame of its own: a plant that moves keeps its scale.
+    ///
+    /// # Errors
+    /// As [`Scene::new`].
+    pub fn within(
+        frame: &Frame,
+        plant: &'a Plant,
+        layers: &[&Layer],
+        around: &'a [Standing],
+        shading: &Shading,
+        person: Option<Vec3>,
+    ) -> Result<Scene<'a>, ViewError> {
         let mut scene = Scene {
             rays: Rays::default(),
             triangles: Vec::new(),
@@ -151,12 +166,11 @@ impl<'a> Scene<'a> {
             skins: Vec::new(),
             decode: Decode::new(),
         };
-        let frame = Frame::around(plant, around);
         let shown = match shading {
             Shading::Channel(name) => Some(values::false_colors(plant, layers, name)?),
             Shading::Plain | Shading::Baked | Shading::Stock | Shading::Lines(_) => None,
         };
-        scene.add(plant, layers, shading, &frame, shown.as_ref().map(|s| s.colors.as_slice()))?;
+        scene.add(plant, layers, shading, frame, shown.as_ref().map(|s| s.colors.as_slice()))?;
         for other in around {
             // A neighbor's values are not the legend's: it stands there in gray.
             let gray = shown.is_some().then(|| grays(&other.plant));

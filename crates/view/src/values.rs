@@ -82,7 +82,8 @@ pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Resu
     let mut columns = layers.iter().flat_map(|layer| &layer.columns);
     let is_wanted =
         |class: &str, property: &str| plain(property) == wanted || plain(&format!("{class}/{property}")) == wanted;
-    match columns.find(|(key, _)| key.class == names::CLASS_LEAF && is_wanted(&key.class, &key.property)) {
+    let drawn = [names::CLASS_LEAF, names::CLASS_BRANCH, names::CLASS_WIND];
+    match columns.find(|(key, _)| drawn.contains(&key.class.as_str()) && is_wanted(&key.class, &key.property)) {
         Some((key, array)) => of_column(plant, &key.class, &key.property, array),
         None => Err(ViewError::Channel { name: name.into(), known: known(layers) }),
     }
@@ -122,6 +123,9 @@ fn of_channel(plant: &Plant, layers: &[&Layer], info: &Channel) -> Result<FalseC
         .collect();
     let mut shown = if is_id {
         ids(&rows, plant.leaves().len(), legend)
+    } else if info.width == 4 {
+        // Levels of branches: the stem's own sway is what all have.
+        boxed(&rows.iter().map(|part| part.iter().map(|row| row.map(|r| &r[1..])).collect()).collect(), legend)
     } else if info.unit_length {
         paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
     } else {
@@ -146,20 +150,23 @@ fn to_rest(plant: &Plant, rows: &Rows, shown: &mut FalseColors) {
 }
 
 fn of_column(plant: &Plant, class: &str, property: &str, array: &Array) -> Result<FalseColors, ViewError> {
-    let leaves = plant.leaves().len();
-    if array.rows() != leaves {
+    let of_leaf = class == names::CLASS_LEAF;
+    let expected =
+        if of_leaf { plant.leaves().len() } else { plant.branches().map_or(0, foliar_plant::Branches::count) };
+    if array.rows() != expected {
         return Err(ViewError::Shape {
             name: property.into(),
             part: class.into(),
             found: array.rows(),
             width: array.width(),
-            expected: format!("{leaves} rows, one per leaf"),
+            expected: format!("{expected} rows, one per {}", if of_leaf { "leaf" } else { "branch" }),
         });
     }
     let width = array.width();
     let integers: Option<Vec<f32>> = array.as_i32().map(|data| data.iter().map(|&i| i as f32).collect());
     let data = array.as_f32().or(integers.as_deref()).unwrap_or_default();
-    let row = |part, v| plant.leaf_of(part, v).map(|leaf| &data[leaf as usize * width..][..width]);
+    let id = |part, v| if of_leaf { plant.leaf_of(part, v) } else { branch_of(plant, part, v) };
+    let row = |part, v| id(part, v).map(|id| &data[id as usize * width..][..width]);
     let rows: Vec<Vec<Option<&[f32]>>> = plant
         .parts()
         .iter()
@@ -178,6 +185,16 @@ fn of_column(plant: &Plant, class: &str, property: &str, array: &Array) -> Resul
         3 => boxed(&rows, legend),
         _ => scalars(&first_only(&rows), None, legend),
     })
+}
+
+/// Branch of a vertex of wood, or of a leaf's.
+fn branch_of(plant: &Plant, part: usize, vertex: usize) -> Option<u32> {
+    let branches = plant.branches()?;
+    let place = match plant.leaf_of(part, vertex) {
+        Some(leaf) => branches.leaves.get(leaf as usize),
+        None => branches.vertices[part].get(vertex),
+    };
+    place.map(|place| place.branch).filter(|&branch| branch != foliar_plant::NO_BRANCH)
 }
 
 type Rows<'a> = Vec<Vec<Option<&'a [f32]>>>;

@@ -123,6 +123,21 @@ impl<'a> Player<'a> {
         rest.iter().enumerate().map(of_part).collect()
     }
 
+    /// The plant as it stands in this wind; none where it would leave the world, or its parts are flat.
+    pub fn moved_plant(&self, gust: &Gust, noise: &Field) -> Option<Plant> {
+        let mut base = self.plant.base().clone();
+        for (part, moved) in base.parts.iter_mut().zip(self.moved(gust, noise)) {
+            let to_mesh = part.transform.inverse();
+            part.normals = match part.normals.is_empty() {
+                true => Vec::new(),
+                false => moved.iter().map(|v| part.normal_to_mesh(v.normal).as_vec3()).collect(),
+            };
+            part.positions = moved.iter().map(|v| to_mesh.transform_point3(v.position).as_vec3()).collect();
+        }
+        let moved = Plant::new(base, self.plant.structure().clone()).ok()?;
+        moved.with_branches(self.plant.branches()?.clone()).ok()
+    }
+
     fn vertex(
         &self,
         rest: &Vertex,

@@ -1,5 +1,5 @@
-//! Density judged by traced light: which default, and why. Writes the tables of docs/tradeoff/density.md, its
-//! chart and its pictures.
+//! Rooms judged: density by traced light, wind against its full model. Writes tables, charts and pictures of
+//! docs/tradeoff.
 
 pub mod judged;
 mod light;
@@ -13,20 +13,26 @@ mod scores;
 mod subsets;
 mod tables;
 pub mod trees;
+mod wind;
 
 use crate::repo;
 use anyhow::{Context, Result, bail};
 
 const DOCUMENT: &str = "docs/tradeoff/density.md";
 const CHART: &str = "docs/tradeoff/density.svg";
-/// Between these lines stands what is generated.
-const MARKERS: [&str; 2] = ["<!-- cargo xtask tradeoff density -->\n", "<!-- end -->\n"];
+/// What is generated ends here; it begins at a line that names its command.
+const MARKER_END: &str = "<!-- end -->\n";
 
 /// Measures a room.
 pub fn run(name: Option<&str>) -> Result<()> {
-    if name != Some("density") {
-        bail!("there is a comparison of density only: cargo xtask tradeoff density");
+    match name {
+        Some("density") => density(),
+        Some("wind") => wind::run(),
+        _ => bail!("there are comparisons of density and wind: cargo xtask tradeoff density"),
     }
+}
+
+fn density() -> Result<()> {
     let trees = trees::all()?;
     let mut judged = Vec::new();
     for tree in &trees {
@@ -48,14 +54,15 @@ pub fn run(name: Option<&str>) -> Result<()> {
     ]
     .join("\n");
     println!("{text}");
-    std::fs::write(repo::root().join(DOCUMENT), replaced(&repo::text(DOCUMENT)?, &text)?).context(DOCUMENT)
+    std::fs::write(repo::root().join(DOCUMENT), replaced(DOCUMENT, &repo::text(DOCUMENT)?, &text)?).context(DOCUMENT)
 }
 
-/// The document with other tables between its markers.
-fn replaced(document: &str, tables: &str) -> Result<String> {
-    let [start, end] = MARKERS;
-    let (before, rest) = document.split_once(start).with_context(|| format!("{DOCUMENT}: no line {start}"))?;
-    let (_, after) = rest.split_once(end).with_context(|| format!("{DOCUMENT}: no line {end}"))?;
+/// A document of a room with other tables between its markers.
+fn replaced(name: &str, document: &str, tables: &str) -> Result<String> {
+    let room = name.trim_start_matches("docs/tradeoff/").trim_end_matches(".md");
+    let [start, end] = [&format!("<!-- cargo xtask tradeoff {room} -->\n"), MARKER_END];
+    let (before, rest) = document.split_once(start).with_context(|| format!("{name}: no line {start}"))?;
+    let (_, after) = rest.split_once(end).with_context(|| format!("{name}: no line {end}"))?;
     Ok(format!("{before}{start}\n{tables}\n{end}{after}"))
 }
 
@@ -63,10 +70,10 @@ fn replaced(document: &str, tables: &str) -> Result<String> {
 mod tests {
     #[test]
     fn only_what_stands_between_the_markers_is_replaced() {
-        let document = format!("a\n{}old\n{}b\n", super::MARKERS[0], super::MARKERS[1]);
-        let replaced = super::replaced(&document, "new").unwrap();
+        let document = "a\n<!-- cargo xtask tradeoff density -->\nold\n<!-- end -->\nb\n";
+        let replaced = super::replaced(super::DOCUMENT, document, "new").unwrap();
         assert!(replaced.starts_with("a\n") && replaced.ends_with("b\n"), "{replaced}");
         assert!(replaced.contains("new") && !replaced.contains("old"));
-        assert!(super::replaced("no markers", "new").is_err());
+        assert!(super::replaced(super::DOCUMENT, "no markers", "new").is_err());
     }
 }

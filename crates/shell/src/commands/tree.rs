@@ -182,6 +182,14 @@ fn view(command: Command, fields: &Fields) -> Command {
                 .value_parser(value_parser!(u32).range(2..=720))
                 .conflicts_with_all(["sheet", "against"])
                 .help("Draws an animated PNG: the plant turns once in so many pictures, 24 a second"),
+        )
+        .arg(
+            Arg::new("sway")
+                .long("sway")
+                .value_name("FRAMES")
+                .value_parser(value_parser!(u32).range(1..=720))
+                .conflicts_with_all(["against", "turntable"])
+                .help("Draws an animated PNG: the plant in a storm, 24 pictures a second; with --sheet levels, weights, phases and six times"),
         );
     common(command, fields, Direct::Sections(&["view"]), Leaves::Files)
 }

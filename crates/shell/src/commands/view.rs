@@ -13,6 +13,8 @@ use crate::runner::{self, Product};
 use clap::ArgMatches;
 use foliar_bake::Layer;
 use foliar_carrier::OutputFile;
+use foliar_schema::names;
+use foliar_structure::branches;
 use foliar_view::{Standing, ViewError, ViewParams};
 use std::path::{Path, PathBuf};
 
@@ -31,6 +33,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         let mut loaded = load(&sources, &options, &job.input)?;
         let stands = neighbors::named(&mut loaded.settings)?.remove("view").unwrap_or_default();
         report.loaded(&loaded);
+        with_branches(&mut loaded, &job.input)?;
         let around = neighbors::standing(&sources, &options, &stands, report)?;
         console.log(&report.lap("read"));
         let params = view_params(&loaded.settings)?;
@@ -69,6 +72,8 @@ enum Wanted {
     Picture,
     Sheet,
     Turntable(u32),
+    Sway(u32),
+    SwaySheet,
     Against(PathBuf),
 }
 
@@ -77,6 +82,10 @@ impl Wanted {
         match (matches.get_one::<PathBuf>("against"), matches.get_one::<u32>("turntable")) {
             (Some(other), _) => Wanted::Against(other.clone()),
             (None, Some(&frames)) => Wanted::Turntable(frames),
+            (None, None) if matches.contains_id("sway") => match matches.get_one::<u32>("sway") {
+                Some(_) if matches.get_flag("sheet") => Wanted::SwaySheet,
+                frames => Wanted::Sway(frames.copied().unwrap_or(1)),
+            },
             (None, None) if matches.get_flag("sheet") => Wanted::Sheet,
             (None, None) => Wanted::Picture,
         }
@@ -85,10 +94,23 @@ impl Wanted {
     fn name(&self) -> &'static str {
         match self {
             Wanted::Picture => "a picture",
-            Wanted::Sheet | Wanted::Against(_) => "a contact sheet with pictures",
-            Wanted::Turntable(_) => "an animated picture",
+            Wanted::Sheet | Wanted::SwaySheet | Wanted::Against(_) => "a contact sheet with pictures",
+            Wanted::Turntable(_) | Wanted::Sway(_) => "an animated picture",
         }
     }
+}
+
+/// What is drawn branch by branch needs the branches that the file holds.
+fn with_branches(loaded: &mut Loaded, input: &Path) -> Result<(), Failure> {
+    let Some(layer) = loaded.layers.iter().find(|layer| layer.record.room == names::ROOM_BRANCHES) else {
+        return Ok(());
+    };
+    let refuse = |error: &dyn std::fmt::Display| Failure::Input(format!("{}: {error}", input.display()));
+    let (base, leaves) = (loaded.plant.base(), loaded.plant.leaves().len());
+    let found = branches::from_layer(layer, base, leaves).map_err(|error| refuse(&error))?;
+    let plant = std::mem::take(&mut loaded.plant).with_branches(found.branches);
+    loaded.plant = plant.map_err(|error| refuse(&error))?;
+    Ok(())
 }
 
 fn all_layers(loaded: &Loaded) -> Vec<&Layer> {
@@ -117,9 +139,15 @@ impl Tree<'_> {
             let turned = foliar_view::turntable(plant, layers, self.around, &shading, params, frames)?;
             return foliar_view::apng_bytes(&turned, FRAMES_PER_SECOND);
         }
+        if let Wanted::Sway(frames) = *wanted {
+            let wind = (foliar_schema::Strength::Storm, frames, foliar_view::FRAME_S);
+            let times = foliar_view::swaying(plant, layers, &shading, params, wind)?;
+            return foliar_view::apng_bytes(&times, FRAMES_PER_SECOND);
+        }
         let title = self.input.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let picture = match wanted {
             Wanted::Sheet => foliar_view::bake_sheet(plant, layers, &title, params),
+            Wanted::SwaySheet => foliar_view::sway_sheet(plant, layers, &title, params),
             _ => foliar_view::render_among(plant, layers, self.around, &shading, params),
         };
         foliar_view::png_bytes(&picture?)
