@@ -25,6 +25,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-view' -ScriptBlock {
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output: .png, or - for standard output')
             [CompletionResult]::new('--against', '--against', [CompletionResultType]::ParameterName, 'Draws FILE beside it, and what differs')
             [CompletionResult]::new('--turntable', '--turntable', [CompletionResultType]::ParameterName, 'Draws an animated PNG: the plant turns once in so many pictures, 24 a second')
+            [CompletionResult]::new('--sway', '--sway', [CompletionResultType]::ParameterName, 'Draws an animated PNG: the plant in a storm, 24 pictures a second; with --sheet levels, weights, phases and six times')
             [CompletionResult]::new('--up', '--up', [CompletionResultType]::ParameterName, 'Axis of an OBJ that points up; nothing said means y.')
             [CompletionResult]::new('--height-m', '--height-m', [CompletionResultType]::ParameterName, 'Height of the plant in meters: an OBJ is scaled to it, instead of `unit`. [meters, above 0]')
             [CompletionResult]::new('--node', '--node', [CompletionResultType]::ParameterName, 'Node of a glTF to bake, by name, with everything below it.')

@@ -59,7 +59,7 @@ pub fn sway_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
     let mut panels = Vec::new();
     for (channel, caption) in [
         ("foliarBranch/level", "level of each branch"),
-        ("_WIND_WEIGHTS", "weights of levels 1, 2, 3 as red, green, blue"),
+        (names::WIND_WEIGHTS, "weights of levels 1, 2, 3 as red, green, blue"),
         ("foliarWind/phase", "phase of each branch (first coordinate)"),
     ] {
         let picture = crate::render(plant, layers, &Shading::Channel(channel.into()), params)?;
