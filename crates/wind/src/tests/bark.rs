@@ -123,5 +123,6 @@ fn a_clean_branch_starts_at_its_first_ring_outside() {
         // Powers of two rings with a square root between: a few roundings.
         assert!((stem - 0.5).abs() < 1e-6 && (bough - own).abs() < 1e-6, "{:?}", weights(ring));
     }
-    assert_eq!(values.longest_m, [10.0, 3.0, 0.0, 0.0]);
+    // Arc lengths of straight axes: exact but for the rounding of an arc to f32.
+    assert!(values.longest_m.iter().zip([10.0, 3.0, 0.0, 0.0]).all(|(a, b)| (a - b).abs() < 1e-6));
 }
