@@ -32,19 +32,29 @@ struct Way {
 }
 
 fn ways() -> Vec<Way> {
-    let rule: Rule = (&Params::default()).into();
-    let full = || Way { name: "full: 4 levels, float", rule, steps: None, bytes: 16, nearest_vertex: false };
-    let levels = |name, levels: usize| Way { name, rule: Rule { levels, ..rule }, bytes: 4 * levels, ..full() };
-    vec![
-        full(),
-        levels("3 levels", 3),
-        levels("2 levels", 2),
-        levels("1 level", 1),
-        Way { name: "16 bits", steps: Some(65_535.0), bytes: 8, ..full() },
-        Way { name: "8 bits", steps: Some(255.0), bytes: 4, ..full() },
-        Way { name: "leaves on the nearest vertex", nearest_vertex: true, ..full() },
-        Way { name: "weights from the root (the paper)", rule: Rule { exit: Exit::Root, ..rule }, ..full() },
-    ]
+    let rule = Rule::from(&Params::default());
+    let way = |name, rule, bytes| Way { name, rule, steps: None, bytes, nearest_vertex: false };
+    let fewer = |levels: usize| {
+        let mut rule = rule;
+        rule.levels = levels;
+        rule
+    };
+    let mut from_root = rule;
+    from_root.exit = Exit::Root;
+    let mut ways = vec![
+        way("full: 4 levels, float", rule, 16),
+        way("3 levels", fewer(3), 12),
+        way("2 levels", fewer(2), 8),
+        way("1 level", fewer(1), 4),
+        way("16 bits", rule, 8),
+        way("8 bits", rule, 4),
+        way("leaves on the nearest vertex", rule, 16),
+        way("weights from the root (the paper)", from_root, 16),
+    ];
+    ways[4].steps = Some(65_535.0);
+    ways[5].steps = Some(255.0);
+    ways[6].nearest_vertex = true;
+    ways
 }
 
 /// What a way costs and errs.
