@@ -138,30 +138,63 @@ fn no_number_in_a_position_is_an_error_that_names_it() {
     assert!(error.to_string().contains("vertex 2"), "{error}");
 }
 
+/// A tube of three sides.
+fn tube((positions, triangles): &mut (Vec<Vec3>, Vec<[u32; 3]>), from: Vec3, to: Vec3, radius: f32) {
+    let first = positions.len() as u32;
+    let side = (to - from).any_orthonormal_vector() * radius;
+    let other = (to - from).normalize().cross(side);
+    for end in [from, to] {
+        positions.extend([end + side, end - 0.5 * side + 0.866 * other, end - 0.5 * side - 0.866 * other]);
+    }
+    for k in 0..3 {
+        let (a, b) = (first + k, first + (k + 1) % 3);
+        triangles.extend([[a, b, b + 3], [a, b + 3, a + 3]]);
+    }
+}
+
+/// A level direction.
+fn around(turn: f64) -> Vec3 {
+    DVec3::new(libm::cos(turn), 0.0, libm::sin(turn)).as_vec3()
+}
+
 #[test]
 fn more_branches_than_sixteen_bits_count() {
     // A trunk and 70,000 separate spurs along it.
-    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
-    let mut tube = |from: Vec3, to: Vec3, radius: f32| {
-        let first = positions.len() as u32;
-        let side = (to - from).any_orthonormal_vector() * radius;
-        let other = (to - from).normalize().cross(side);
-        for end in [from, to] {
-            positions.extend([end + side, end - 0.5 * side + 0.866 * other, end - 0.5 * side - 0.866 * other]);
-        }
-        for k in 0..3 {
-            let (a, b) = (first + k, first + (k + 1) % 3);
-            triangles.extend([[a, b, b + 3], [a, b + 3, a + 3]]);
-        }
-    };
-    tube(Vec3::ZERO, Vec3::Y * 70.0, 0.5);
+    let mut made = (Vec::new(), Vec::new());
+    tube(&mut made, Vec3::ZERO, Vec3::Y * 70.0, 0.5);
     for spur in 0..70_000 {
         let root = Vec3::Y * (0.001 * spur as f32);
-        let turn = 2.4 * f64::from(spur);
-        tube(root, root + DVec3::new(libm::cos(turn), 0.0, libm::sin(turn)).as_vec3(), 0.0002);
+        tube(&mut made, root, root + around(2.4 * f64::from(spur)), 0.0002);
     }
-    let (base, structure) = wood(positions, triangles);
+    let (base, structure) = wood(made.0, made.1);
     let branches = branches(&base, &structure);
     assert_eq!(branches.count(), 70_001);
     assert!(branches.rows[1..].iter().all(|row| row.parent == 0));
+}
+
+#[test]
+fn a_trunk_thinner_than_its_boughs_is_the_trunk_all_the_same() {
+    let mut made = (Vec::new(), Vec::new());
+    tube(&mut made, Vec3::ZERO, Vec3::Y * 10.0, 0.05);
+    for bough in 0..6 {
+        let root = Vec3::Y * (4.0 + bough as f32);
+        tube(&mut made, root, root + 2.0 * around(2.4 * f64::from(bough)), 0.07);
+    }
+    let (base, structure) = wood(made.0, made.1);
+    let branches = branches(&base, &structure);
+    assert_eq!(branches.count(), 7);
+    assert!(branches.rows[0].length > 9.9 && branches.rows[1..].iter().all(|row| row.parent == 0));
+}
+
+#[test]
+fn as_far_as_coordinates_tell_tubes_nothing_changes() {
+    for name in ["clean", "palm", "shrub-7-stems"] {
+        let plant = hard_tree(name, 3).unwrap().plant;
+        // A quarter of what is refused: steps of 7.5e-5 of the wood's diagonal.
+        let diagonal = plant.size().length() as f32;
+        let offset = 7.5e-5 * diagonal / f32::EPSILON;
+        let mut structure = plant.structure().clone();
+        structure.leaves.iter_mut().for_each(|leaf| leaf.petiole.x += offset);
+        same(name, &found(&plant), &branches(&far(&plant, offset), &structure));
+    }
 }

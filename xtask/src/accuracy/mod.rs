@@ -5,7 +5,7 @@ mod shared;
 
 use anyhow::{Context, Result, bail};
 use foliar_plant::Plant;
-use foliar_plant::sample::{HARD_TREES, Recipe, hard_tree};
+use foliar_plant::sample::{FUSED_TREES, HARD_TREES, Recipe, fused_tree, hard_tree};
 use foliar_structure::branches::{Accuracy, BranchParams, Method, Truth, find};
 
 /// Seeds of every tree made by rule.
@@ -20,6 +20,11 @@ const GATES: [(&str, f64); 6] = [
     ("soup-jittered", 0.85),
 ];
 const USUAL: f64 = 0.995;
+/// Seeds of fused trees.
+const FUSED_SEEDS: [u64; 3] = [1, 2, 3];
+/// Parents in fused trees, and vertices on their branch.
+const FUSED: f64 = 0.95;
+const FUSED_LABELS: f64 = 0.97;
 /// Leaves on their branch.
 const LEAVES: f64 = 0.98;
 
@@ -45,11 +50,27 @@ pub fn run(name: Option<&str>) -> Result<()> {
             missed += usize::from(robust.parent < USUAL || robust.leaf < LEAVES);
         }
     }
+    missed += fused(wanted)?;
     missed += shared::run(wanted)?;
     if missed > 0 {
         bail!("{missed} rows miss their gates");
     }
     Ok(())
+}
+
+/// Wood in one piece: thresholds of its own (wind.md 2.4); vertices on their branch in place of the paper's chain.
+fn fused(wanted: impl Fn(&str) -> bool) -> Result<usize> {
+    let mut missed = 0;
+    for case in FUSED_TREES.into_iter().filter(|c| wanted(c)) {
+        for seed in FUSED_SEEDS {
+            let tree = fused_tree(case, seed).context("a fused tree without a plant")?;
+            let truth = Truth::of_sample(tree.plant.branches().context("a sample without branches")?);
+            let found = row(&format!("{case} {seed}"), &tree.plant, &truth)?;
+            println!("{:32} {:8}  vertices on their branch {:.4}", "", "", found.purity);
+            missed += usize::from(found.parent < FUSED || found.purity < FUSED_LABELS);
+        }
+    }
+    Ok(missed)
 }
 
 /// Mean parent accuracy over the shared trees whose truth is told, and how many they are.

@@ -13,7 +13,7 @@ mod textures;
 mod tree;
 mod tubes;
 
-pub use hard::{HARD_TREES, HardTree, hard_tree, wood_for_speed};
+pub use hard::{FUSED_TREES, HARD_TREES, HardTree, fused_tree, hard_tree, wood_for_speed};
 pub use odd::odd_plants;
 pub use tree::Recipe;
 

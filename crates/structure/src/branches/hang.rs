@@ -31,8 +31,12 @@ pub(super) struct Hanging {
 }
 
 /// Hangs every tube.
-pub(super) fn hang(tubes: &[Tube], capsules: &Capsules, ground: &Ground) -> Vec<Hanging> {
-    let candidates = contact::candidates(tubes, capsules, ground);
+pub(super) fn hang(tubes: &[Tube], forks: &[Option<u32>], capsules: &Capsules, ground: &Ground) -> Vec<Hanging> {
+    let mut candidates = contact::candidates(tubes, capsules, ground);
+    for (list, parent) in candidates.iter_mut().zip(forks).filter_map(|(list, fork)| Some((list, (*fork)?))) {
+        // What forks in one piece has no choice.
+        *list = vec![Candidate { parent, cost: 0, from_tip: false, gap: 0.0 }];
+    }
     let edges: Vec<Edge> = contact::edges(&candidates);
     let chosen = arborescence::solve(tubes.len() + 1, tubes.len() as u32, &edges);
     let mut parents: Vec<u32> =

@@ -26,3 +26,15 @@ pub(super) fn check_precision(geometry: &Geometry, roles: &[Role]) -> Result<(),
 pub(super) fn check_count(count: usize) -> Result<(), StructureError> {
     if count > MOST_BRANCHES { Err(StructureError::TooManyBranches { count }) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_as_many_as_a_float_counts() {
+        assert_eq!(check_count(1 << 24), Ok(()));
+        let said = check_count((1 << 24) + 1).map_err(|error| error.to_string());
+        assert!(said.is_err_and(|said| said.contains("16777217 branches") && said.contains("merge its wood")));
+    }
+}

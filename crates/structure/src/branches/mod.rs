@@ -10,6 +10,7 @@ mod bind;
 mod caps;
 mod contact;
 mod find;
+mod fused;
 mod hang;
 mod layer;
 mod limits;

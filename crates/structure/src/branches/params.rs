@@ -17,9 +17,12 @@ pub struct BranchParams {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// Contact at ends against capsules, minimum arborescence with the ground as root.
+    /// Contact at ends against capsules, minimum arborescence with the ground as root; wood in one piece that
+    /// clearly forks is taken apart by the shape of its surface.
     #[default]
     Robust,
+    /// The same, and every piece whose rings fall into parts is taken apart.
+    Fused,
     /// The paper's own words: by diameter, whoever intersects (Kusternig07 section 5). To show the difference.
     Kusternig07,
 }

@@ -193,8 +193,9 @@ impl Ord for Step {
     }
 }
 
-/// Fits one piece; none where it has no node.
-pub(super) fn fit(graph: &Graph) -> Option<Tube> {
+/// Fits one piece by one tube; none where it has no node. A piece whose level sets fall into parts as often as `fork`
+/// says comes back as these left it: it is no tube.
+pub(super) fn fit(graph: &Graph, fork: f64) -> Option<Tube> {
     if graph.points.is_empty() {
         return None;
     }
@@ -209,7 +210,7 @@ pub(super) fn fit(graph: &Graph) -> Option<Tube> {
         }
     }
     let best = best?;
-    if best.roughness <= ROUND {
+    if best.roughness <= ROUND || best.split >= fork {
         return Some(best);
     }
     let bands = super::bands::fit(graph, &best);

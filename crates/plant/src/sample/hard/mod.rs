@@ -1,6 +1,7 @@
 //! Trees that are hard to take apart, one difficulty each, with their true hierarchy: every case in which
 //! separate tubes of real files have misled a rule.
 
+mod fused;
 mod limbs;
 mod skin;
 
@@ -53,6 +54,23 @@ pub const HARD_TREES: [&str; 33] = [
     "vine",
     "whorls",
 ];
+
+/// Names of hard trees whose wood, or some of it, is one piece.
+pub const FUSED_TREES: [&str; 3] = ["fused", "fused-crooked", "fused-with-twigs"];
+
+/// A tree of [`FUSED_TREES`]; none for an unknown name. The vertices of a fused piece belong to the limb whose bark they
+/// lie nearest to.
+pub fn fused_tree(name: &str, seed: u64) -> Option<HardTree> {
+    let name = FUSED_TREES.into_iter().find(|known| *known == name)?;
+    let plain = Wood { counts: [8, 2, 0], tip: 0.5, fat: 1.4, ..Wood::new(seed) };
+    let (wood, levels) = match name {
+        "fused-crooked" => (Wood { crook: 0.2, counts: [10, 2, 0], ..plain }, 3),
+        "fused-with-twigs" => (Wood { counts: [8, 2, 4], ..plain }, 3),
+        _ => (plain, 3),
+    };
+    let skin = Skin { fused: Some(skin::Fused { levels, cell: 0.02 }), ..Skin::default() };
+    Some(HardTree { name, plant: skin::plant(&wood.tree(), &skin, seed) })
+}
 
 /// The hard tree of this name; none for an unknown one. `seed` chooses among its kind.
 pub fn hard_tree(name: &str, seed: u64) -> Option<HardTree> {

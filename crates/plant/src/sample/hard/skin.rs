@@ -1,5 +1,6 @@
 //! Triangles around the limbs of hard trees, and leaves on their twigs.
 
+use super::fused;
 use super::limbs::Limb;
 use crate::sample::build::{Build, LeafTruth, Piece};
 use crate::sample::noise::signed;
@@ -30,6 +31,15 @@ pub enum Caps {
     Apart,
 }
 
+/// Limbs that are one surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Fused {
+    /// So many levels are; the others are tubes.
+    pub levels: usize,
+    /// Edge of a grid cell, meters.
+    pub cell: f64,
+}
+
 /// How limbs are skinned.
 #[derive(Clone, Debug)]
 pub struct Skin {
@@ -46,6 +56,7 @@ pub struct Skin {
     /// Parts that the tubes are dealt to in turn.
     pub parts: usize,
     pub leaves_per_twig: u32,
+    pub fused: Option<Fused>,
 }
 
 impl Default for Skin {
@@ -59,6 +70,7 @@ impl Default for Skin {
             shared_vertices: 0,
             parts: 1,
             leaves_per_twig: 2,
+            fused: None,
         }
     }
 }
@@ -74,13 +86,22 @@ pub fn plant(limbs: &[Limb], skin: &Skin, seed: u64) -> Plant {
     let points = limbs.iter().flat_map(|l| &l.axis.points);
     let (low, high) = points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
     let jitter = skin.jitter * low.distance(high);
+    let fused: Vec<usize> =
+        (0..limbs.len()).filter(|&l| skin.fused.is_some_and(|fused| limbs[l].level < fused.levels)).collect();
+    let cell = skin.fused.map_or(0.0, |fused| fused.cell);
+    let surface = fused::surface(&fused.iter().map(|&l| limbs[l].clone()).collect::<Vec<_>>(), cell);
+    let mut of_limb: Vec<_> = limbs.iter().map(|_| None).collect();
+    surface.pieces.into_iter().zip(&fused).for_each(|(piece, &limb)| of_limb[limb] = Some(piece));
     for (index, limb) in limbs.iter().enumerate() {
-        let (mut piece, mut rings) = tube(limb, skin);
+        let (mut piece, mut rings) = of_limb[index].take().unwrap_or_else(|| tube(limb, skin));
         if skin.soup {
             (piece, rings) = torn(&piece, &rings, jitter, seed + index as u64);
         }
         build.branch(wood[index % wood.len()], &piece, &rings, &limb.axis, limb.parent);
     }
+    let starts = build.hierarchy.starts();
+    let corner = |(limb, vertex): (usize, u32)| starts[fused[limb]] as u32 + vertex;
+    build.base.parts[wood[0]].triangles.extend(surface.faces.iter().map(|face| face.map(corner)));
     share_vertices(&mut build, wood[0], limbs, skin.shared_vertices);
     let deepest = limbs.iter().map(|l| l.level).max().unwrap_or(0);
     let leaves = build.part("leaves", Role::Leaf, green, DAffine3::IDENTITY);
