@@ -94,7 +94,7 @@ _foliar__wind() {
                     return 0
                     ;;
                 --method)
-                    COMPREPLY=($(compgen -W "robust kusternig07" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "robust fused kusternig07" -- "${cur}"))
                     return 0
                     ;;
                 --continuation)

@@ -14,7 +14,8 @@ complete -c foliar-wind -l texture -d 'Loose images for parts without one: PART=
 complete -c foliar-wind -l leaf -d 'Parts that are leaves.' -r
 complete -c foliar-wind -l wood -d 'Parts that are wood.' -r
 complete -c foliar-wind -l other -d 'Parts that are no plant.' -r
-complete -c foliar-wind -l method -d 'How parents are chosen. [default "robust"]' -r -f -a "robust\t'Contact at ends against capsules, minimum arborescence with the ground as root.'
+complete -c foliar-wind -l method -d 'How parents are chosen. [default "robust"]' -r -f -a "robust\t'Contact at ends against capsules, minimum arborescence with the ground as root; wood in one piece that clearly forks is taken apart by the shape of its surface.'
+fused\t'The same, and every piece whose rings fall into parts is taken apart.'
 kusternig07\t'The paper\'s own words: by diameter, whoever intersects (Kusternig07 section 5). To show the difference.'"
 complete -c foliar-wind -l continuation -d 'Whether a branch that goes on where its parent ends is one with it. [default "merge"]' -r -f -a "merge\t'One branch; arc lengths go on.'
 split\t'Two.'"
