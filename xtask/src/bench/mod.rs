@@ -88,6 +88,7 @@ const MEASURES: &[Measure] = &[
     ("gradient-error", density::gradient_error),
     ("depth-correlation", correlation::sky),
     ("depth-correlation-luft", correlation::luft),
+    ("depth-correlation-traced", shading::traced_depth),
     ("depth-correlation-crowns", correlation::crown_volumes),
     ("rim-less-inside", correlation::rim_less_inside),
     ("sky-shading-correlation", shading::correlation),

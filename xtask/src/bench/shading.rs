@@ -1,8 +1,10 @@
 //! The default bake against traced light: `cargo xtask tradeoff density` says the same and more.
 
 use super::Figure;
-use crate::tradeoff::{judged::of_default, trees};
-use anyhow::Result;
+use crate::tradeoff::{judged::of_default, light::Light, trees};
+use anyhow::{Context, Result};
+use foliar_density::crown_depth;
+use foliar_numerics::spearman;
 
 /// Correlation of realigned normals with traced shading on the first tree.
 pub fn correlation() -> Result<Figure> {
@@ -19,6 +21,19 @@ pub fn third_best() -> Result<Figure> {
 /// The same on the worst.
 pub fn worst() -> Result<Figure> {
     explained(3)
+}
+
+/// Rank correlation of traced light itself with depth under the crown, on the tree where it is greatest: what a
+/// term that explained all of the light would have.
+pub fn traced_depth() -> Result<Figure> {
+    let (mut worst, mut list) = (f64::NEG_INFINITY, Vec::new());
+    for tree in trees::all()? {
+        let traced = Light::trace(&tree.plant)?.ambient();
+        let rank = spearman(&traced, &crown_depth(&tree.plant)).with_context(|| format!("{}: no ranks", tree.name))?;
+        worst = worst.max(rank);
+        list.push(format!("{} {rank:.3}", tree.name));
+    }
+    Ok(Figure::new(worst, format!("none; rays on {}", list.join(", "))))
 }
 
 fn explained(rank: usize) -> Result<Figure> {

@@ -2,7 +2,7 @@
 //! docs/tradeoff.
 
 pub mod judged;
-mod light;
+pub mod light;
 mod normals;
 mod occluders;
 mod pictures;
