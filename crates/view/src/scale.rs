@@ -7,9 +7,9 @@ use image::{Rgba, RgbaImage};
 
 /// Height of the person, meters.
 const PERSON_M: f64 = 1.7;
-/// A person stands beside plants whose longest edge is at least half and at most a thousand of its heights: beside
+/// A person stands beside plants whose longest edge is at least one and at most a thousand of its heights: beside
 /// smaller ones it would fill the picture, beside larger ones nobody would see it.
-const PLANT_PER_PERSON: [f64; 2] = [0.5, 1000.0];
+const PLANT_PER_PERSON: [f64; 2] = [1.0, 1000.0];
 /// Meters between the plant's outermost point and the person's middle.
 const ASIDE_M: f32 = 0.6;
 /// Share of the picture's width that the bar fills at most.
