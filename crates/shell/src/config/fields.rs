@@ -325,7 +325,7 @@ mod tests {
     fn an_unknown_name_gets_the_nearest_and_a_later_room_is_named() {
         let fields = Fields::new(&[]).unwrap();
         assert!(fields.find("scene.camera.nearst_m").unwrap_err().contains("did you mean scene.camera.nearest_m?"));
-        assert!(fields.find("wind.levels").unwrap_err().contains("wind: not in this version"));
+        assert!(fields.find("fall.levels").unwrap_err().contains("fall: not in this version"));
     }
 
     /// What house rules forbid: an enum that carries data.

@@ -174,7 +174,7 @@ mod tests {
                 .starts_with("assets/foliar.toml:3: import.height_m = -1: must be above 0")
         );
         assert!(error("[import\n").starts_with("assets/foliar.toml:1: no TOML: "));
-        assert!(error("[wind]\nlevels = 2").contains("wind: not in this version"));
+        assert!(error("[fall]\nlevels = 2").contains("fall: not in this version"));
         assert!(error("up = 'z'").starts_with("assets/foliar.toml:1: up: no such parameter"));
         assert!(error("import = 3").starts_with("assets/foliar.toml:1: import: no such parameter"));
         assert!(error("[import]\nup = { a = 1 }").contains("must be a single value"));
