@@ -3,10 +3,10 @@
 //! of odd plants. Laws 1, 3 and 9 need bytes and are tested at the top of the workspace.
 
 use crate::reframe::{Permutation, permuted, scaled, translated};
-use crate::{Array, Baker, Inputs, Layer, Maps, Quiet, Request, run};
+use crate::{Array, Baker, Inputs, Layer, Maps, Quiet, Request, Rung, run};
 use foliar_plant::sample::Sample;
 use foliar_plant::{Place, Plant};
-use foliar_schema::{CHANNELS, COLUMNS, Channel, channel};
+use foliar_schema::{CHANNELS, COLUMNS, Channel, Column, channel};
 use serde_json::{Map, Value};
 
 /// A law that does not hold, and where.
@@ -147,14 +147,22 @@ pub fn meets_reference(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach>
                 layer.attributes.iter().zip(reference.attributes.values()).filter(|((key, _), _)| key.name == *name);
             let Some(channel) = channel(name) else { continue };
             let errors = pairs.flat_map(|((_, a), b)| steps(channel, a, b));
-            let rms = foliar_numerics::ErrorStats::of(errors).rms;
-            if rms.is_nan() || rms > rung.promise_steps {
-                return Err(breach(format!(
-                    "rung {}: {name} is off by {rms} steps rms, promised {}",
-                    rung.name, rung.promise_steps
-                )));
-            }
+            kept(&rung, name, errors.collect()).map_err(&breach)?;
         }
+        for (key, array) in &layer.columns {
+            let exact = reference.columns.get(key);
+            let Some((column, exact)) = foliar_schema::column(&key.class, &key.property).zip(exact) else { continue };
+            kept(&rung, &key.property, column_steps(column, array, exact)).map_err(&breach)?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a rung's promise is kept by these errors, visible steps.
+fn kept(rung: &Rung, name: &str, errors: Vec<f64>) -> Result<(), String> {
+    let rms = foliar_numerics::ErrorStats::of(errors).rms;
+    if rms.is_nan() || rms > rung.promise_steps {
+        return Err(format!("rung {}: {name} is off by {rms} steps rms, promised {}", rung.name, rung.promise_steps));
     }
     Ok(())
 }
@@ -222,11 +230,13 @@ pub fn defaults_agree(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> 
 /// [`Breach`].
 pub fn order_free(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
     let other = permuted(&sample.plant);
-    same_after(ORDER_FREE, baker, sample, other, |place, array| {
-        let part = sample.plant.parts().iter().position(|p| p.place == place);
+    let renumbered = |place: Option<Place>, array: &Array| {
+        let part = place.and_then(|place| sample.plant.parts().iter().position(|p| p.place == place));
         let vertices = part.map_or(0, |p| sample.plant.parts()[p].positions.len());
-        Permutation::of(vertices).apply(array)
-    })
+        let rows = if place.is_some() { vertices } else { sample.plant.leaves().len() };
+        Permutation::of(rows).apply(array)
+    };
+    same_after(ORDER_FREE, baker, sample, other, renumbered)
 }
 
 /// Law 8: a move of the plant changes nothing.
@@ -245,13 +255,14 @@ pub fn unit_free(baker: &dyn Baker, sample: &Sample) -> Result<(), Breach> {
     same_after(UNIT_FREE, baker, sample, scaled(&sample.plant), |_, array| array.clone())
 }
 
-/// Bakes the plant and its changed copy; channels without a unit must agree.
+/// Bakes the plant and its changed copy; channels without a unit must agree, and columns of leaves that are
+/// seen. `map` gives an array of a place, or of a column, in the copy's order.
 fn same_after(
     law: &'static str,
     baker: &dyn Baker,
     sample: &Sample,
     changed: Result<Plant, foliar_plant::PlantError>,
-    map: impl Fn(Place, &Array) -> Array,
+    map: impl Fn(Option<Place>, &Array) -> Array,
 ) -> Result<(), Breach> {
     let breach = breaches(law, baker, sample);
     let changed = changed.map_err(|error| breach(error.to_string()))?;
@@ -262,31 +273,55 @@ fn same_after(
     }
     for ((key, a), b) in before.attributes.iter().zip(after.attributes.values()) {
         let Some(channel) = channel(&key.name) else { continue };
-        let errors = steps(channel, &map(key.place, a), b);
-        let worst = errors.iter().enumerate().max_by(|x, y| x.1.total_cmp(y.1));
-        if let Some((row, worst)) = worst.filter(|(_, worst)| worst.is_nan() || **worst > FRAME_STEPS) {
-            return Err(breach(format!("{} moves by {worst} visible steps at row {row}", key.name)));
-        }
+        stays(&key.name, &steps(channel, &map(Some(key.place), a), b)).map_err(&breach)?;
+    }
+    for (key, a) in &before.columns {
+        let (column, b) = (foliar_schema::column(&key.class, &key.property), after.columns.get(key));
+        let Some((column, b)) = column.filter(|c| c.visible_step > 0.0).zip(b) else { continue };
+        stays(&key.property, &column_steps(column, &map(None, a), b)).map_err(&breach)?;
     }
     Ok(())
 }
 
-/// Differences in visible steps, row by row: of values, or of angles for unit vectors.
+/// Whether what may not move stays within a part of what is seen.
+fn stays(name: &str, errors: &[f64]) -> Result<(), String> {
+    let worst = errors.iter().enumerate().max_by(|x, y| x.1.total_cmp(y.1));
+    match worst.filter(|(_, worst)| worst.is_nan() || **worst > FRAME_STEPS) {
+        Some((row, worst)) => Err(format!("{name} moves by {worst} visible steps at row {row}")),
+        None => Ok(()),
+    }
+}
+
+/// Differences in visible steps, row by row: of values, of transmittances for optical depths, or of angles for unit
+/// vectors.
 pub fn steps(channel: &Channel, a: &Array, b: &Array) -> Vec<f64> {
+    let distances = distances(channel.width, channel.optical_depth, a, b).into_iter();
+    // The angle between unit vectors, from their chord: exact where they nearly agree.
+    let angle = |chord: f64| if chord.is_nan() { chord } else { 2.0 * libm::asin((chord / 2.0).min(1.0)).to_degrees() };
+    let seen = |distance: f64| if channel.unit_length { angle(distance) } else { distance };
+    distances.map(|distance| seen(distance) / channel.visible_step).collect()
+}
+
+/// The same for a column; nothing for one whose differences are no matter of seeing.
+pub fn column_steps(column: &Column, a: &Array, b: &Array) -> Vec<f64> {
+    if column.visible_step <= 0.0 {
+        return Vec::new();
+    }
+    let distances = distances(column.width, column.optical_depth, a, b).into_iter();
+    distances.map(|distance| distance / column.visible_step).collect()
+}
+
+fn distances(width: usize, optical_depth: bool, a: &Array, b: &Array) -> Vec<f64> {
     let (Some(x), Some(y)) = (a.as_f32(), b.as_f32()) else { return vec![f64::NAN] };
     if x.len() != y.len() {
         return vec![f64::NAN];
     }
-    let rows = x.chunks_exact(channel.width).zip(y.chunks_exact(channel.width));
-    rows.map(|(p, q)| {
-        let square: f64 = p.iter().zip(q).map(|(p, q)| (f64::from(*p) - f64::from(*q)).powi(2)).sum();
-        let distance = square.sqrt();
-        // The angle between unit vectors, from their chord: exact where they nearly agree.
-        let difference =
-            if channel.unit_length { 2.0 * libm::asin((distance / 2.0).min(1.0)).to_degrees() } else { distance };
-        difference / channel.visible_step
-    })
-    .collect()
+    let seen = |v: f32| if optical_depth { libm::exp(-f64::from(v)) } else { f64::from(v) };
+    let rows = x.chunks_exact(width).zip(y.chunks_exact(width));
+    let squares = rows.map(|(p, q)| p.iter().zip(q).map(|(p, q)| (seen(*p) - seen(*q)).powi(2)).sum::<f64>());
+    // Depths are numbers of their own, not coordinates of one vector.
+    let share = if optical_depth { 1.0 / width as f64 } else { 1.0 };
+    squares.map(|square| (square * share).sqrt()).collect()
 }
 
 fn layer(baker: &dyn Baker, plant: &Plant, given: &Map<String, Value>) -> Result<Layer, String> {

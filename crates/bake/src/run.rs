@@ -110,16 +110,13 @@ fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
         }
     }
     for (key, array) in &baked.columns {
-        let declared = COLUMNS.iter().any(|c| c.class == key.class && c.name == key.property && c.room == room);
-        let bad = array.as_f32().and_then(|data| data.iter().position(|v| !v.is_finite()));
-        if !declared || bad.is_some() {
+        let declared = COLUMNS.iter().find(|c| c.class == key.class && c.name == key.property && c.room == room);
+        let outside = |v: &f32| !declared.is_some_and(|c| (c.range[0]..=c.range[1]).contains(v));
+        let bad = array.as_f32().and_then(|data| data.iter().position(outside));
+        if declared.is_none() || bad.is_some() {
+            let (row, value) = (bad.unwrap_or(0) / array.width(), array.as_f32().zip(bad).map(|(data, at)| data[at]));
             let channel = format!("{}/{}", key.class, key.property);
-            return Err(BakeError::Broken {
-                room: room.into(),
-                channel,
-                row: bad.unwrap_or(0) / array.width(),
-                value: f32::NAN,
-            });
+            return Err(BakeError::Broken { room: room.into(), channel, row, value: value.unwrap_or(f32::NAN) });
         }
     }
     for (name, raster) in &baked.rasters {

@@ -1,5 +1,4 @@
-//! Channels (values per vertex) and columns (values per leaf or branch), with units, ranges and
-//! the step that an eye can just see.
+//! Channels (values per vertex), with units, ranges and the step that an eye can just see.
 
 use crate::{Role, names};
 
@@ -46,41 +45,45 @@ pub struct Channel {
     pub visible_step: f64,
     /// Unit of the visible step.
     pub step_unit: &'static str,
+    /// Whether values are optical depths: what is seen of them is the transmittance, exp(-value), and the visible step
+    /// is one of that.
+    pub optical_depth: bool,
     /// What stands where it does not apply.
     pub neutral: Neutral,
     /// One line for docs and legends.
     pub doc: &'static str,
 }
 
-/// One value per row of a property table.
-#[derive(Clone, Copy, Debug)]
-pub struct Column {
-    /// Class of the table.
-    pub class: &'static str,
-    /// Property of the class.
-    pub name: &'static str,
-    /// Who writes it.
-    pub room: &'static str,
-    /// Number type.
-    pub element: Element,
-    /// Numbers per row: 1 SCALAR, 2 to 4 VECn (or an array where `array`).
-    pub width: usize,
-    /// A fixed-length array rather than a vector.
-    pub array: bool,
-    /// Unit of measure.
-    pub unit: &'static str,
-    /// One line for docs.
-    pub doc: &'static str,
-}
-
 /// Steps and rooms in the order in which files list them.
-pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_WIND, names::ROOM_DENSITY];
+pub const ROOMS: &[&str] =
+    &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_WIND, names::ROOM_LIGHT, names::ROOM_DENSITY];
 
 /// Rooms that the plan names and this version has not.
-pub const LATER_ROOMS: &[&str] = &["light", "occlusion", "translucency", "fall", "leafscan"];
+pub const LATER_ROOMS: &[&str] = &["occlusion", "translucency", "fall", "leafscan"];
 
 /// Largest id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;
+
+/// Largest optical depth in a file: nothing is seen beyond it.
+pub(crate) const MOST_DEPTH: f32 = 16.0;
+
+const fn light_depth(name: &'static str, doc: &'static str) -> Channel {
+    Channel {
+        name,
+        room: names::ROOM_LIGHT,
+        width: 4,
+        roles: &[Role::Wood],
+        min: 0.0,
+        max: MOST_DEPTH,
+        unit_length: false,
+        unit: "optical depth",
+        visible_step: 1.0 / 255.0,
+        step_unit: "transmittance",
+        optical_depth: true,
+        neutral: Neutral::Value(0.0),
+        doc,
+    }
+}
 
 /// All channels, in the order in which files list them.
 pub const CHANNELS: &[Channel] = &[
@@ -95,6 +98,7 @@ pub const CHANNELS: &[Channel] = &[
         unit: "row of foliarLeaf",
         visible_step: 1.0,
         step_unit: "id",
+        optical_depth: false,
         neutral: Neutral::NullId,
         doc: "leaf that the vertex belongs to",
     },
@@ -109,6 +113,7 @@ pub const CHANNELS: &[Channel] = &[
         unit: "row of foliarBranch",
         visible_step: 1.0,
         step_unit: "id",
+        optical_depth: false,
         neutral: Neutral::NullId,
         doc: "branch that the vertex belongs to, at any depth",
     },
@@ -123,6 +128,7 @@ pub const CHANNELS: &[Channel] = &[
         unit: "m, rest frame",
         visible_step: 1e-3,
         step_unit: "m",
+        optical_depth: false,
         neutral: Neutral::Value(0.0),
         doc: "way along the axis of the vertex's branch, from its root; the same all around a ring",
     },
@@ -138,6 +144,7 @@ pub const CHANNELS: &[Channel] = &[
         // Half a pixel at 3 m (1.6 mm) in a storm that moves the tip of a branch of 10 m by 1.5 m.
         visible_step: 1e-3,
         step_unit: "1",
+        optical_depth: false,
         neutral: Neutral::Value(0.0),
         doc: "how much of the sway of its branch, and of each ancestor, the vertex takes part in; level 0 to 3",
     },
@@ -152,9 +159,12 @@ pub const CHANNELS: &[Channel] = &[
         unit: "1",
         visible_step: 1.0 / 255.0,
         step_unit: "1",
+        optical_depth: false,
         neutral: Neutral::Value(0.0),
         doc: "way along the leaf: 0 at the petiole, 1 at the tip",
     },
+    light_depth(names::LIGHT_DEPTH_0, "optical depths toward the ground: octants -x -z, +x -z, -x +z, +x +z"),
+    light_depth(names::LIGHT_DEPTH_1, "optical depths toward the sky: octants -x -z, +x -z, -x +z, +x +z"),
     Channel {
         name: names::AMBIENT,
         room: names::ROOM_DENSITY,
@@ -166,6 +176,7 @@ pub const CHANNELS: &[Channel] = &[
         unit: "1",
         visible_step: 1.0 / 255.0,
         step_unit: "1",
+        optical_depth: false,
         neutral: Neutral::Value(1.0),
         doc: "ambient coefficient: share of the sky's light that reaches the vertex",
     },
@@ -180,130 +191,9 @@ pub const CHANNELS: &[Channel] = &[
         unit: "unit vector, mesh frame",
         visible_step: 1.0,
         step_unit: "degree",
+        optical_depth: false,
         neutral: Neutral::OwnNormal,
         doc: "normal realigned to the shape of the crown",
-    },
-];
-
-macro_rules! leaf_column {
-    ($name:literal, $element:ident, $width:literal, $unit:literal, $doc:literal) => {
-        Column {
-            class: names::CLASS_LEAF,
-            name: $name,
-            room: names::ROOM_STRUCTURE,
-            element: Element::$element,
-            width: $width,
-            array: false,
-            unit: $unit,
-            doc: $doc,
-        }
-    };
-}
-
-macro_rules! branch_column {
-    ($name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
-        branch_column!(CLASS_BRANCH, $name, $element, $width, $array, $unit, $doc)
-    };
-    ($class:ident, $name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
-        Column {
-            class: names::$class,
-            name: $name,
-            room: names::ROOM_BRANCHES,
-            element: Element::$element,
-            width: $width,
-            array: $array,
-            unit: $unit,
-            doc: $doc,
-        }
-    };
-}
-
-/// All columns, in the order in which files list them.
-pub const COLUMNS: &[Column] = &[
-    leaf_column!("center", F32, 3, "m, rest frame", "area-weighted center of the leaf"),
-    leaf_column!("normal", F32, 3, "unit vector, rest frame", "area-weighted normal, side of the first face"),
-    leaf_column!("area", F32, 1, "m^2", "one-sided area times alpha coverage"),
-    leaf_column!("group", I32, 1, "group id", "leaves that are one object share it"),
-    leaf_column!("petiole", F32, 3, "m, rest frame", "point of the leaf nearest to wood"),
-    Column {
-        class: names::CLASS_LEAF,
-        name: "branch",
-        room: names::ROOM_BRANCHES,
-        element: Element::I32,
-        width: 1,
-        array: false,
-        unit: "row of foliarBranch, -1 none",
-        doc: "branch that the petiole is nearest to",
-    },
-    Column {
-        class: names::CLASS_LEAF,
-        name: "branchArc",
-        room: names::ROOM_BRANCHES,
-        element: Element::F32,
-        width: 1,
-        array: false,
-        unit: "m, rest frame",
-        doc: "way along that branch's axis, from its root, to where the leaf hangs",
-    },
-    leaf_column!("crownVolume", I32, 1, "0 or 1", "1 where the row was sampled from a crown volume"),
-    branch_column!("parent", I32, 1, false, "row of foliarBranch, -1 none", "branch that it grows from; -1 for a root"),
-    branch_column!("level", I32, 1, false, "level", "0 for a stem, else its parent's plus one"),
-    branch_column!(
-        "chain",
-        I32,
-        4,
-        true,
-        "rows of foliarBranch, -1 none",
-        "the branch itself or its ancestor at levels 0 to 3"
-    ),
-    branch_column!("pivot", F32, 3, false, "m, rest frame", "where its axis, drawn on backward, meets its parent's"),
-    branch_column!("direction", F32, 3, false, "unit vector, rest frame", "from its root to the middle of its length"),
-    branch_column!("length", F32, 1, false, "m", "length of its axis"),
-    branch_column!("radius", F32, 1, false, "m", "radius at its root"),
-    branch_column!("margin", F32, 1, false, "1", "cost of the second-best parent less that of the chosen one"),
-    branch_column!(
-        "cost",
-        F32,
-        1,
-        false,
-        "1",
-        "cost of the chosen parent: gap, distance from its axis, thickness, taper"
-    ),
-    branch_column!("gap", F32, 1, false, "radii of the branch", "distance between its bark and its parent's"),
-    branch_column!("kind", I32, 1, false, "0, 1 or 2", "0 hangs on another, 1 stands on the ground, 2 is an island"),
-    branch_column!("roughness", F32, 1, false, "1", "mean deviation of its rings from circles, over their radius"),
-    branch_column!("split", F32, 1, false, "1", "share of its rings that fall into several parts: it is fused"),
-    branch_column!("tubes", I32, 1, false, "tubes", "tubes end to end that it was joined from"),
-    branch_column!(
-        CLASS_AXIS,
-        "branch",
-        I32,
-        1,
-        false,
-        "row of foliarBranch",
-        "branch whose axis runs through the ring"
-    ),
-    branch_column!(CLASS_AXIS, "offset", F32, 3, false, "m, rest frame", "center of the ring less the branch's pivot"),
-    branch_column!(CLASS_AXIS, "radius", F32, 1, false, "m, rest frame", "radius of the ring"),
-    Column {
-        class: names::CLASS_WIND,
-        name: "phase",
-        room: names::ROOM_WIND,
-        element: Element::F32,
-        width: 2,
-        array: false,
-        unit: "tiles of the noise",
-        doc: "where in the noise the branch starts",
-    },
-    Column {
-        class: names::CLASS_WIND,
-        name: "frame",
-        room: names::ROOM_WIND,
-        element: Element::F32,
-        width: 4,
-        array: false,
-        unit: "quaternion x y z w, rest frame",
-        doc: "turns X to the branch's right, Y to its up, Z along it",
     },
 ];
 
@@ -312,14 +202,10 @@ pub fn channel(name: &str) -> Option<&'static Channel> {
     CHANNELS.iter().find(|c| c.name == name)
 }
 
-/// The column of this class and name.
-pub fn column(class: &str, name: &str) -> Option<&'static Column> {
-    COLUMNS.iter().find(|c| c.class == class && c.name == name)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::COLUMNS;
 
     #[test]
     fn every_channel_and_column_belongs_to_a_listed_room() {

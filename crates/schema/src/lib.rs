@@ -4,6 +4,7 @@
 
 mod channel;
 mod codes;
+mod column;
 mod config;
 mod extension;
 mod finding;
@@ -13,8 +14,9 @@ mod raster;
 mod record;
 mod role;
 
-pub use channel::{CHANNELS, COLUMNS, Channel, Column, Element, LATER_ROOMS, Neutral, ROOMS, channel, column};
+pub use channel::{CHANNELS, Channel, Element, LATER_ROOMS, Neutral, ROOMS, channel};
 pub use codes::{CODES, CodeInfo, code};
+pub use column::{COLUMNS, Column, column};
 pub use config::{
     Ambient, Budget, Camera, Check, Engine, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
 };

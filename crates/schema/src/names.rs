@@ -33,6 +33,15 @@ pub const WIND_WEIGHTS: &str = "_WIND_WEIGHTS";
 /// A leaf's own weight, 0 at the petiole to 1 at the tip.
 pub const LEAF_WEIGHT: &str = "_LEAF_WEIGHT";
 
+/// Optical depths of a place in the four octants below (Boulanger08 section 6.1).
+pub const LIGHT_DEPTH_0: &str = "_LIGHT_DEPTH_0";
+/// Optical depths of a place in the four octants above.
+pub const LIGHT_DEPTH_1: &str = "_LIGHT_DEPTH_1";
+/// Property of [`CLASS_LIGHT`]: optical depths of a leaf in the eight octants.
+pub const OPTICAL_DEPTH: &str = "opticalDepth";
+/// Property of [`CLASS_LIGHT`]: spherical harmonics of a leaf's transmittance.
+pub const SUN_HARMONICS: &str = "sunSh";
+
 /// Table class of leaves; row = leaf id.
 pub const CLASS_LEAF: &str = "foliarLeaf";
 
@@ -43,12 +52,17 @@ pub const CLASS_AXIS: &str = "foliarBranchAxis";
 /// Table class of what moves branches; row = branch id.
 pub const CLASS_WIND: &str = "foliarWind";
 
+/// Table class of the light that reaches leaves; row = leaf id.
+pub const CLASS_LIGHT: &str = "foliarLight";
+
 /// The step that finds roles and leaves.
 pub const ROOM_STRUCTURE: &str = "structure";
 /// The layer of the branch hierarchy, which structure finds when a room asks for it.
 pub const ROOM_BRANCHES: &str = "branches";
 /// The room of wind (Kusternig07 section 5).
 pub const ROOM_WIND: &str = "wind";
+/// The room of light in the crown (Boulanger08).
+pub const ROOM_LIGHT: &str = "light";
 /// The room of metaball density (Luft07).
 pub const ROOM_DENSITY: &str = "density";
 
