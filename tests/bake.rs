@@ -8,11 +8,11 @@ fn an_obj_becomes_a_gltf_with_roles_leaves_and_density() {
     let (here, out) = (folder(), output("bake-obj.glb"));
     let run =
         run(FOLIAR, &["bake", text(&tree(here.path(), 60)), "-o", text(&out)]).expect(0, &["IMPORT-UP", "IMPORT-UNIT"]);
-    assert!(run.stdout.contains("written (60 leaves; wind, density;"), "{}", run.stdout);
+    assert!(run.stdout.contains("written (60 leaves; wind, light, density;"), "{}", run.stdout);
     let (json, _) = open_glb(&out);
     let records = &json["extensions"]["FOLIAR_foliage"]["records"];
     let rooms: Vec<&str> = records.as_array().unwrap().iter().map(|r| r["room"].as_str().unwrap()).collect();
-    assert_eq!(rooms, ["structure", "branches", "wind", "density"]);
+    assert_eq!(rooms, ["structure", "branches", "wind", "light", "density"]);
     let attributes = |mesh: usize| json["meshes"][mesh]["primitives"][0]["attributes"].as_object().unwrap().clone();
     let carriers: Vec<usize> = (0..2).filter(|&mesh| attributes(mesh).contains_key("_AMBIENT")).collect();
     assert_eq!(carriers, [0, 1], "wood and leaves carry k_a");
@@ -26,7 +26,7 @@ fn bytes_predicted_are_bytes_written() {
     run(FOLIAR, &["bake", text(&tree(here.path(), 60)), "-o", text(&out), "--report", text(&report)]).expect(0, &[]);
     let report: Value = serde_json::from_slice(&std::fs::read(report).unwrap()).unwrap();
     let rooms = report["assets"][0]["rooms"].as_array().unwrap();
-    for name in ["wind", "density"] {
+    for name in ["wind", "light", "density"] {
         let room = rooms.iter().find(|room| room["room"] == name).unwrap();
         assert!(room["bytesWritten"].as_u64().unwrap() > 0, "{room}");
         assert_eq!(room["bytesPredicted"], room["bytesWritten"], "{room}");
@@ -40,7 +40,7 @@ fn a_dry_run_prints_the_plan_and_writes_nothing() {
     tree(here.path(), 60);
     let run = run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "tree.glb", "--dry-run"]).expect(0, &[]);
     let radius = "\"radius_m\":\"from the crown's size and the number of its leaves\"";
-    for fragment in ["baker", "density", "yes", "light: not in this version", radius] {
+    for fragment in ["baker", "density", "yes", "occlusion: not in this version", radius] {
         assert!(run.stdout.contains(fragment), "no {fragment:?} in {}", run.stdout);
     }
     assert!(!run.stdout.contains("null"), "a parameter that the room settles says so: {}", run.stdout);
@@ -62,7 +62,7 @@ fn plan_and_roles_come_as_json_where_asked_for() {
 fn a_scene_without_ambient_soft_normals_and_wind_needs_no_room() {
     let (here, out) = (folder(), output("bake-no-room.glb"));
     tree(here.path(), 60);
-    let scene = "[scene.light]\nambient = 'none'\nsoft_normals = false\n[scene.wind]\nstrength = 'none'\n";
+    let scene = "[scene.light]\nambient = 'none'\nsoft_normals = false\nsun = 'none'\nsky = 'constant'\n[scene.wind]\nstrength = 'none'\n";
     std::fs::write(here.path().join("foliar.toml"), scene).unwrap();
     let plan = run_in(here.path(), FOLIAR, &["bake", "tree.obj", "--dry-run"]).expect(0, &[]);
     assert!(plan.stdout.contains("no      "), "{}", plan.stdout);
@@ -185,7 +185,7 @@ fn a_damaged_cache_is_baked_anew() {
 
 #[test]
 fn only_bakes_what_it_names() {
-    run(FOLIAR, &["bake", "a.obj", "-o", "a.glb", "--only", "light"]).expect(2, &["light: not in this version"]);
+    run(FOLIAR, &["bake", "a.obj", "-o", "a.glb", "--only", "occlusion"]).expect(2, &["occlusion: not in this version"]);
     run(FOLIAR, &["bake", "a.obj", "-o", "a.glb", "--only", "soup"]).expect(2, &["no such room; there are wind"]);
 }
 

@@ -10,7 +10,7 @@ fn a_sound_tree_passes_as_obj_and_as_master() {
     run(FOLIAR, &["bake", text(&obj), "-o", text(&out)]).expect(0, &[]);
     let said = run(CHECK, &[text(&out), "--require", "density,structure"]).expect(0, &[]).stdout;
     assert!(said.contains("0 errors"), "{said}");
-    let missing = run(CHECK, &[text(&out), "--require", "light"]).expect(1, &["1 findings"]).stdout;
+    let missing = run(CHECK, &[text(&out), "--require", "occlusion"]).expect(1, &["1 findings"]).stdout;
     assert!(missing.contains("error[REQUIRED-MISSING]") && missing.contains("holds"), "{missing}");
     run(CHECK, &[text(&out), "--require", "winf"]).expect(2, &["no such room or channel"]);
 }

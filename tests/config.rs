@@ -98,7 +98,7 @@ fn bad_values_name_their_source() {
     bad("[density]\nambient = 'bright'\n", &["foliar.toml:2: density.ambient = \"bright\": must be one of luft, sky"]);
     bad("[scene.camera]\nheight_px = 1.5\n", &["foliar.toml:2: scene.camera.height_px = 1.5: must be a whole number"]);
     bad("[density\n", &["foliar.toml:1: no TOML"]);
-    bad("[light]\nquality = 1\n", &["foliar.toml:1: light: light: not in this version"]);
+    bad("[occlusion]\nquality = 1\n", &["foliar.toml:1: occlusion: occlusion: not in this version"]);
     run(FOLIAR, &["config", "--config", "no/such.toml"]).expect(2, &["no/such.toml: cannot be read"]);
     run(FOLIAR, &["config", "--quality", "inf"]).expect(2, &["--quality", "a finite number"]);
 }

@@ -1,6 +1,6 @@
 //! The conventions of every program (house rules, section 6): one walk over all programs and all flags.
 
-use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, NOISE, PACK, Run, VIEW, WIND, folder, run_in, tree};
+use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, LIGHT, NOISE, PACK, Run, VIEW, WIND, folder, run_in, tree};
 use foliar_programs::BAKERS;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,7 +20,7 @@ struct Case {
 const OBJ: &[&str] = &["tree.obj", "tree.mtl"];
 
 #[rustfmt::skip]
-const CASES: [Case; 15] = [
+const CASES: [Case; 16] = [
     Case { name: "foliar bake", program: FOLIAR, arguments: &["bake", "tree.obj", "-o", "bake.glb"],
         output: Some("bake.glb"), reads: OBJ },
     Case { name: "foliar rebake", program: FOLIAR, arguments: &["rebake", "baked.glb", "-o", "rebake.glb", "--up", "z"],
@@ -38,6 +38,8 @@ const CASES: [Case; 15] = [
         output: Some("density.glb"), reads: OBJ },
     Case { name: "foliar-wind", program: WIND, arguments: &["tree.obj", "-o", "wind.glb"],
         output: Some("wind.glb"), reads: OBJ },
+    Case { name: "foliar-light", program: LIGHT, arguments: &["tree.obj", "-o", "light.glb"],
+        output: Some("light.glb"), reads: OBJ },
     Case { name: "foliar-noise", program: NOISE, arguments: &["-o", "noise.png", "--size", "64", "--kmax", "16"],
         output: Some("noise.png"), reads: &[] },
     Case { name: "foliar-view", program: VIEW,

@@ -1,7 +1,7 @@
 //! The laws that need bytes: base untouched, idempotent, repeatable, all or nothing.
 
 use crate::common::{
-    DENSITY, FOLIAR, IMPORT, WIND, command, folder, glb, made_from, open_glb, output, run, run_in, shared, text, tree,
+    DENSITY, FOLIAR, IMPORT, LIGHT, WIND, command, folder, glb, made_from, open_glb, output, run, run_in, shared, text, tree,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -106,6 +106,7 @@ fn law_3_one_process_or_two_in_place_or_not_the_file_is_the_same() {
     run(FOLIAR, &["bake", text(&obj), "-o", text(&once)]).expect(0, &[]);
     run(IMPORT, &[text(&obj), "-o", text(&steps)]).expect(0, &[]);
     run(DENSITY, &[text(&steps), "-o", text(&steps)]).expect(0, &[]);
+    run(LIGHT, &[text(&steps), "-o", text(&steps)]).expect(0, &[]);
     run(WIND, &[text(&steps), "-o", text(&steps)]).expect(0, &[]);
     same(&once, &steps);
     // Baking what is baked replaces, never appends.
