@@ -8,6 +8,7 @@ pub mod density;
 mod expected;
 mod fft;
 mod gates;
+pub mod light;
 mod oracle;
 mod programs;
 mod reading;
@@ -77,6 +78,19 @@ const MEASURES: &[Measure] = &[
     ("wind-leaf-slip", wind::leaf_slip),
     ("wind-normals", wind::normals),
     ("wind-frames", wind::frames),
+    ("light-1500-seconds", light::sapling),
+    ("light-40k-paper-seconds", light::paper),
+    ("light-40k-exact-seconds", light::exact),
+    ("light-40k-tree-1-percent-seconds", light::percent),
+    ("light-40k-tree-1-percent-error", light::percent_error),
+    ("light-40k-tree-1-per-mille-seconds", light::per_mille),
+    ("light-40k-tree-1-per-mille-error", light::per_mille_error),
+    ("light-40k-rays-seconds", light::rays),
+    ("light-40k-wood-seconds", light::wood),
+    ("light-40k-room-seconds", light::room),
+    ("light-200k-tree-seconds", light::medium),
+    ("light-1m-tree-seconds", light::large),
+    ("light-1m-tree-memory", light::large_memory),
     ("noise-slope", wind::noise_slope),
     ("noise-seam", wind::noise_seam),
     ("noise-correlation", wind::noise_correlation),

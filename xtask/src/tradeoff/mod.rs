@@ -1,6 +1,7 @@
-//! Rooms judged: density by traced light, wind against its full model. Writes tables, charts and pictures of
+//! Rooms judged: density by traced light, wind against its full model, light against rays. Writes tables, charts and pictures of
 //! docs/tradeoff.
 
+mod engines;
 pub mod judged;
 pub mod light;
 mod normals;
@@ -28,7 +29,8 @@ pub fn run(name: Option<&str>) -> Result<()> {
     match name {
         Some("density") => density(),
         Some("wind") => wind::run(),
-        _ => bail!("there are comparisons of density and wind: cargo xtask tradeoff density"),
+        Some("light") => engines::run(),
+        _ => bail!("there are comparisons of density, wind and light: cargo xtask tradeoff density"),
     }
 }
 
