@@ -163,6 +163,8 @@ enum Measure {
     Angle(f64),
     /// Length of the difference.
     Length(f64),
+    /// Greatest difference of the transmittances of optical depths.
+    Depth(f64),
 }
 
 impl Measure {
@@ -171,7 +173,11 @@ impl Measure {
             Some(Channel { unit_length: true, step_unit: "degree", visible_step, .. }) => {
                 Measure::Angle(visible_step.to_radians())
             }
+            Some(channel) if channel.optical_depth => Measure::Depth(channel.visible_step),
             Some(channel) => Measure::Length(channel.visible_step),
+            None if of_column(name).is_some_and(|column| column.optical_depth) => {
+                Measure::Depth(of_column(name).map_or(1.0, |column| column.visible_step))
+            }
             // A number that names a row is the same or another.
             None if pairs.iter().any(|(_, array, _)| matches!(array, Array::I32 { .. })) => Measure::Length(1.0),
             None => {
@@ -190,8 +196,17 @@ impl Measure {
             // Half the chord is the sine of half the angle, which is the angle to within 1 % below 28 degrees.
             Measure::Angle(step) => 2.0 * (apart / 2.0).min(1.0) / step,
             Measure::Length(step) => apart / step,
+            Measure::Depth(step) => {
+                let seen = |(x, y): (&f64, &f64)| (libm::exp(-x) - libm::exp(-y)).abs();
+                a.iter().zip(b).map(seen).fold(0.0, f64::max) / step
+            }
         }
     }
+}
+
+/// The column of a name as it stands here: class and property.
+fn of_column(name: &str) -> Option<&'static foliar_schema::Column> {
+    name.split_once('/').and_then(|(class, property)| foliar_schema::column(class, property))
 }
 
 #[cfg(test)]
@@ -224,6 +239,18 @@ mod tests {
         );
         assert_eq!(found[0].worst[0].place, "mesh 0 primitive 0 vertex 2");
         assert_eq!(found[0].worst.len(), 2);
+    }
+
+    #[test]
+    fn optical_depths_differ_by_what_is_seen_of_them() {
+        let layer = |depth: f32| {
+            let mut layer = Layer::default();
+            let key = AttributeKey { place: Place::default(), name: names::LIGHT_DEPTH_0.into() };
+            layer.attributes.insert(key, Array::F32 { width: 4, data: vec![0.0, 1.0, depth, 3.0] });
+            layer
+        };
+        let (dark, bright) = (diff(&[layer(9.0)], &[layer(12.0)]), diff(&[layer(0.1)], &[layer(0.2)]));
+        assert!(!dark[0].exceeds(0.05) && bright[0].exceeds(20.0), "{dark:?} {bright:?}");
     }
 
     #[test]

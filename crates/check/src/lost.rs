@@ -108,6 +108,9 @@ fn values(after: &Survey, master: &Survey, channel: &Channel, report: &mut Repor
         "degree" => channel.visible_step.to_radians(),
         _ => channel.visible_step,
     };
+    // Depths go down to transmittances, both lists the other way round alike.
+    let seen = |v: f32| if channel.optical_depth { libm::expf(-v) } else { v };
+    let [old, new] = [old, new].map(|list| list.into_iter().map(seen).collect::<Vec<_>>());
     let steps = difference(&old, &new) / step;
     if steps > 1.0 {
         let message = format!("{name} is off by {steps:.1} visible steps or more ({step:.4} each)");
