@@ -5,6 +5,7 @@ use super::{ROOM, finding};
 use crate::map::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
 use foliar_bake::{BakeError, MapRaster, Maps};
 use foliar_schema::{Finding, code, names};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 /// A texel belongs to the leaf where its alpha reaches this.
@@ -56,20 +57,26 @@ impl Sheet {
         let mut sheet = Sheet { width, height, texel_mm: params.texel_mm(width), ..Sheet::default() };
         sheet.read_thickness(maps, thickness, params)?;
         let heights = params.height_scale_mm;
+        let lit = |side: usize| params.sides.list().iter().any(|(shown, _)| shown.lit() == side);
         for (side, normal, relief) in
             [(0, names::MAP_NORMAL_FRONT, names::MAP_HEIGHT_FRONT), (1, names::MAP_NORMAL_BACK, names::MAP_HEIGHT_BACK)]
         {
-            sheet.normals[side] = match (maps.get(normal), maps.get(relief)) {
-                (Some(_), Some(_)) => {
-                    return Err(bad(relief, format!("and {normal} say the same"), "give one of them"));
+            // A side that no light falls on needs no normals.
+            sheet.normals[side] = if !lit(side) {
+                Vec::new()
+            } else {
+                match (maps.get(normal), maps.get(relief)) {
+                    (Some(_), Some(_)) => {
+                        return Err(bad(relief, format!("and {normal} say the same"), "give one of them"));
+                    }
+                    (Some(map), None) => sheet.normals(normal, map, params),
+                    (None, Some(map)) => {
+                        let scale = scale_of(relief, "height_scale_mm", map, heights)?;
+                        let values: Vec<f32> = channel(map).map(|h| h * scale as f32).collect();
+                        normals_from_heights(&values, width, [sheet.texel_mm; 2])
+                    }
+                    (None, None) => Vec::new(),
                 }
-                (Some(map), None) => sheet.normals(normal, map, params),
-                (None, Some(map)) => {
-                    let scale = scale_of(relief, "height_scale_mm", map, heights)?;
-                    let values: Vec<f32> = channel(map).map(|h| h * scale as f32).collect();
-                    normals_from_heights(&values, width, [sheet.texel_mm; 2])
-                }
-                (None, None) => Vec::new(),
             };
         }
         Ok(sheet)
@@ -80,16 +87,14 @@ impl Sheet {
         let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
         let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
         let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
-        let mut thin = 0;
-        let texel = |(at, value): (usize, f32)| {
-            let d = params.thickness_offset_mm + scale * f64::from(value);
-            if !covered(at, value) {
-                return 0.0;
-            }
-            thin += usize::from(d < LEAST_THICKNESS_MM);
-            d.max(LEAST_THICKNESS_MM) as f32
+        let stored = |value: f32| params.thickness_offset_mm + scale * f64::from(value);
+        let texel = |(at, texel): (usize, &[f32])| {
+            if covered(at, texel[0]) { stored(texel[0]).max(LEAST_THICKNESS_MM) as f32 } else { 0.0 }
         };
-        self.thickness_mm = channel(map).enumerate().map(texel).collect();
+        let texels = || map.raster.data.par_chunks_exact(map.raster.channels.max(1) as usize).enumerate();
+        self.thickness_mm = texels().map(texel).collect();
+        let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
+        let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
         let leaf = LeafMap { width: self.width, height: self.height, ..LeafMap::default() };
         let leaf = LeafMap { thickness_mm: std::mem::take(&mut self.thickness_mm), ..leaf };
         let (range, median) = (leaf.range_mm(), leaf.median_mm());
@@ -134,17 +139,16 @@ impl Sheet {
             if name == names::MAP_NORMAL_BACK && params.normal_frame == NormalFrame::RightHanded { -1.0 } else { 1.0 },
             if params.normal_y == NormalY::Down { -1.0 } else { 1.0 },
         ];
-        let mut none = 0;
+        let decoded = |values: &[f32]| [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
+        let length = |n: [f32; 3]| n.iter().map(|v| v * v).sum::<f32>().sqrt();
         let texel = |values: &[f32]| {
-            let n = [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
-            let length = n.iter().map(|v| v * v).sum::<f32>().sqrt();
-            if length > f32::EPSILON {
-                return n.map(|v| v / length);
-            }
-            none += 1;
-            [0.0, 0.0, 1.0]
+            let n = decoded(values);
+            let length = length(n);
+            if length > f32::EPSILON { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] }
         };
-        let normals = map.raster.data.chunks_exact(channels).map(texel).collect();
+        let texels = || map.raster.data.par_chunks_exact(channels);
+        let normals = texels().map(texel).collect();
+        let none = texels().filter(|values| length(decoded(values)) <= f32::EPSILON).count();
         if none > 0 {
             let message = format!("{none} normals have no length: taken for straight ones");
             self.findings.push(finding(&code::MAP_NORMALS, name, message));
@@ -152,14 +156,12 @@ impl Sheet {
         normals
     }
 
-    /// The leaf as light meets it whose map is shown on `side`: the other side is lit.
-    pub fn lit_side(&self, side: Side) -> LeafMap {
-        let lit = match side {
-            Side::Front => &self.normals[1],
-            Side::Back => &self.normals[0],
-        };
+    /// The leaf as light meets it whose map is shown on `side`: the other side is lit. Its normals are handed over, which
+    /// at 4096 x 4096 texels are 200 MB: once a side.
+    pub fn lit_side(&mut self, side: Side) -> LeafMap {
         let (width, height) = (self.width, self.height);
-        LeafMap { width, height, thickness_mm: self.thickness_mm.clone(), normals: lit.clone() }
+        let normals = std::mem::take(&mut self.normals[side.lit()]);
+        LeafMap { width, height, thickness_mm: self.thickness_mm.clone(), normals }
     }
 
     /// What a record says of the whole leaf.
@@ -206,7 +208,7 @@ fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result
         let problem = format!("has {} channels and {} numbers", raster.channels, raster.data.len());
         return Err(bad(name, problem, "a normal map has three channels, any other at least one"));
     }
-    match raster.data.iter().position(|v| !v.is_finite()) {
+    match raster.data.par_iter().position_first(|v| !v.is_finite()) {
         None => Ok(()),
         Some(at) => {
             let texel = at / raster.channels as usize;

@@ -82,6 +82,16 @@ pub enum Side {
     Back,
 }
 
+impl Side {
+    /// Which side light falls on where this one is shown: 0 front, 1 back.
+    pub(super) fn lit(self) -> usize {
+        match self {
+            Side::Front => 1,
+            Side::Back => 0,
+        }
+    }
+}
+
 impl Sides {
     /// Each side with the name of its raster.
     pub fn list(self) -> &'static [(Side, &'static str)] {
