@@ -2,6 +2,7 @@
 //! docs/tradeoff.
 
 pub mod judged;
+mod leaf_pictures;
 pub mod light;
 mod normals;
 mod occluders;
@@ -12,6 +13,7 @@ mod rungs;
 mod scores;
 mod subsets;
 mod tables;
+mod translucency;
 pub mod trees;
 mod wind;
 
@@ -28,7 +30,8 @@ pub fn run(name: Option<&str>) -> Result<()> {
     match name {
         Some("density") => density(),
         Some("wind") => wind::run(),
-        _ => bail!("there are comparisons of density and wind: cargo xtask tradeoff density"),
+        Some("translucency") => translucency::run(),
+        _ => bail!("there are comparisons of density, wind and translucency: cargo xtask tradeoff density"),
     }
 }
 
