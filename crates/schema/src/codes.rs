@@ -83,6 +83,7 @@ codes! {
     LOST_ROLE = "LOST-ROLE", Warning, "A tool dropped the roles of primitives: wood and leaves are not told apart any more.";
     LOST_TABLE = "LOST-TABLE", Error, "A tool dropped a property table: facts about leaves or branches are gone.";
     MAP_BITS = "MAP-BITS", Warning, "A map has so few bits that its steps show: give 16 bits or floats.";
+    MAP_ESTIMATED = "MAP-ESTIMATED", Note, "A map was estimated from a photograph, not measured: take it as an artist's guess.";
     MAP_NORMALS = "MAP-NORMALS", Warning, "Normals of no length were taken for straight ones: is it a normal map?";
     MAP_THIN = "MAP-THIN", Note, "Texels of a leaf that are thinner than anything grows were taken for the least thickness.";
     MATERIAL_CULLED = "MATERIAL-CULLED", Warning, "A leaf material is seen from one side only, and its leaves have no back: half of them vanish; set doubleSided.";

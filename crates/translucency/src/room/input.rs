@@ -1,8 +1,10 @@
 //! Maps as they came, made into a leaf: thickness in millimeters, unit normals of each side.
 
-use super::params::{NormalFrame, NormalY, Params, Side, refuse};
+use super::params::{NormalFrame, NormalY, Params, Side, ThicknessFrom, refuse};
 use super::{ROOM, finding};
 use crate::map::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
+use crate::photo::{Look, thickness_from_photo};
+use crate::presets::Preset;
 use foliar_bake::{BakeError, MapRaster, Maps};
 use foliar_schema::{Finding, code, names};
 use rayon::prelude::*;
@@ -84,17 +86,10 @@ impl Sheet {
 
     fn read_thickness(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
         let name = names::MAP_THICKNESS;
-        let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
-        let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
-        let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
-        let stored = |value: f32| params.thickness_offset_mm + scale * f64::from(value);
-        let texel = |(at, texel): (usize, &[f32])| {
-            if covered(at, texel[0]) { stored(texel[0]).max(LEAST_THICKNESS_MM) as f32 } else { 0.0 }
+        let thin = match params.thickness_from {
+            ThicknessFrom::Map => self.measured(maps, map, params)?,
+            ThicknessFrom::Photo => self.estimated(maps, map, params)?,
         };
-        let texels = || map.raster.data.par_chunks_exact(map.raster.channels.max(1) as usize).enumerate();
-        self.thickness_mm = texels().map(texel).collect();
-        let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
-        let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
         let leaf = LeafMap { width: self.width, height: self.height, ..LeafMap::default() };
         let leaf = LeafMap { thickness_mm: std::mem::take(&mut self.thickness_mm), ..leaf };
         let (range, median) = (leaf.range_mm(), leaf.median_mm());
@@ -111,8 +106,53 @@ impl Sheet {
             let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
             self.findings.push(finding(&code::MAP_THIN, name, message));
         }
-        self.warn_of_steps(map, scale);
         Ok(())
+    }
+
+    /// Thickness as the map says it; how many texels are next to nothing.
+    fn measured(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<usize, BakeError> {
+        let name = names::MAP_THICKNESS;
+        let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
+        let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
+        let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
+        let stored = |value: f32| params.thickness_offset_mm + scale * f64::from(value);
+        let texel = |(at, texel): (usize, &[f32])| {
+            if covered(at, texel[0]) { stored(texel[0]).max(LEAST_THICKNESS_MM) as f32 } else { 0.0 }
+        };
+        let texels = || map.raster.data.par_chunks_exact(map.raster.channels.max(1) as usize).enumerate();
+        self.thickness_mm = texels().map(texel).collect();
+        let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
+        let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
+        self.warn_of_steps(map, scale);
+        Ok(thin)
+    }
+
+    /// Thickness estimated from a photograph; said to be that.
+    fn estimated(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<usize, BakeError> {
+        let name = names::MAP_THICKNESS;
+        let channels = map.raster.channels as usize;
+        if channels < 3 {
+            return Err(bad(name, format!("has {channels} channels"), "a photograph has red, green and blue"));
+        }
+        let alpha = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect::<Vec<f32>>());
+        // Whole numbers of a photograph are bent as sRGB is; floats are linear.
+        let linear = |v: f32| if map.bits == 32 { v } else { linear(v) };
+        let texel = |(at, texel): (usize, &[f32])| {
+            let own = if channels > 3 { texel[3] } else { 1.0 };
+            let alpha = alpha.as_ref().map_or(own, |alpha| alpha[at]);
+            [linear(texel[0]), linear(texel[1]), linear(texel[2]), alpha]
+        };
+        let rgba: Vec<[f32; 4]> = map.raster.data.par_chunks_exact(channels).enumerate().map(texel).collect();
+        let usual = Preset::named(params.leaf.name()).map_or(0.2, |preset| preset.thickness_mm);
+        let look = Look { mean_mm: params.thickness_mean_mm.unwrap_or(usual), veins: params.veins };
+        self.thickness_mm = thickness_from_photo(rgba.as_flattened(), self.width, &look);
+        let message = format!(
+            "thickness was estimated from a photograph, veins thick and rim thin, {} mm on the mean: nothing of it was \
+             measured",
+            look.mean_mm
+        );
+        self.findings.push(finding(&code::MAP_ESTIMATED, name, message));
+        Ok(0)
     }
 
     /// What the bits of the thickness map cost.
@@ -169,6 +209,7 @@ impl Sheet {
         let facts = json!({
             "texelMm": self.texel_mm,
             "thicknessMm": { "least": self.range_mm.0, "median": self.median_mm, "greatest": self.range_mm.1 },
+            "thicknessFrom": params.thickness_from,
             "normalize": params.normalize,
             "frame": "x image right, y image up, z out of the lit side, which is not the side that shows the map",
             "decode": "t = max(0, R b1.l + G b2.l + B b3.l) (a0 + a1 l.z), 0 where l.z <= 0; A is the mean over directions",
@@ -181,6 +222,11 @@ impl Sheet {
 /// First channel of a map.
 fn channel(map: &MapRaster) -> impl Iterator<Item = f32> + '_ {
     map.raster.data.iter().step_by(map.raster.channels.max(1) as usize).copied()
+}
+
+/// Linear light of an sRGB value (IEC 61966-2-1).
+fn linear(encoded: f32) -> f32 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { libm::powf((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// Millimeters of 1 in a map.
