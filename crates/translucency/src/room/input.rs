@@ -86,10 +86,10 @@ impl Sheet {
 
     fn read_thickness(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
         let name = names::MAP_THICKNESS;
-        let thin = match params.thickness_from {
+        match params.thickness_from {
             ThicknessFrom::Map => self.measured(maps, map, params)?,
             ThicknessFrom::Photo => self.estimated(maps, map, params)?,
-        };
+        }
         let leaf = LeafMap { width: self.width, height: self.height, ..LeafMap::default() };
         let leaf = LeafMap { thickness_mm: std::mem::take(&mut self.thickness_mm), ..leaf };
         let (range, median) = (leaf.range_mm(), leaf.median_mm());
@@ -102,15 +102,14 @@ impl Sheet {
             ));
         };
         (self.range_mm, self.median_mm) = (range, median);
-        if thin > 0 {
-            let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
-            self.findings.push(finding(&code::MAP_THIN, name, message));
+        if params.thickness_from == ThicknessFrom::Map {
+            self.warn_of_steps(map, scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?);
         }
         Ok(())
     }
 
-    /// Thickness as the map says it; how many texels are next to nothing.
-    fn measured(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<usize, BakeError> {
+    /// Thickness as the map says it.
+    fn measured(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
         let name = names::MAP_THICKNESS;
         let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
         let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
@@ -123,12 +122,15 @@ impl Sheet {
         self.thickness_mm = texels().map(texel).collect();
         let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
         let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
-        self.warn_of_steps(map, scale);
-        Ok(thin)
+        if thin > 0 {
+            let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
+            self.findings.push(finding(&code::MAP_THIN, name, message));
+        }
+        Ok(())
     }
 
     /// Thickness estimated from a photograph; said to be that.
-    fn estimated(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<usize, BakeError> {
+    fn estimated(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
         let name = names::MAP_THICKNESS;
         let channels = map.raster.channels as usize;
         if channels < 3 {
@@ -152,7 +154,7 @@ impl Sheet {
             look.mean_mm
         );
         self.findings.push(finding(&code::MAP_ESTIMATED, name, message));
-        Ok(0)
+        Ok(())
     }
 
     /// What the bits of the thickness map cost.
