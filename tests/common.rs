@@ -12,6 +12,7 @@ pub const DENSITY: &str = env!("CARGO_BIN_EXE_foliar-density");
 pub const WIND: &str = env!("CARGO_BIN_EXE_foliar-wind");
 pub const LIGHT: &str = env!("CARGO_BIN_EXE_foliar-light");
 pub const NOISE: &str = env!("CARGO_BIN_EXE_foliar-noise");
+pub const LEAFSCAN: &str = env!("CARGO_BIN_EXE_foliar-leafscan");
 pub const VIEW: &str = env!("CARGO_BIN_EXE_foliar-view");
 pub const PACK: &str = env!("CARGO_BIN_EXE_foliar-pack");
 pub const CHECK: &str = env!("CARGO_BIN_EXE_foliar-check");

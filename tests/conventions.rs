@@ -1,6 +1,9 @@
 //! The conventions of every program (house rules, section 6): one walk over all programs and all flags.
 
-use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, LIGHT, NOISE, PACK, Run, VIEW, WIND, folder, run_in, tree};
+use crate::common::{
+    CHECK, DENSITY, FOLIAR, IMPORT, LEAFSCAN, LIGHT, NOISE, PACK, Run, VIEW, WIND, folder, run_in, tree,
+};
+use crate::leafscan::leaf;
 use foliar_programs::BAKERS;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -20,7 +23,7 @@ struct Case {
 const OBJ: &[&str] = &["tree.obj", "tree.mtl"];
 
 #[rustfmt::skip]
-const CASES: [Case; 16] = [
+const CASES: [Case; 17] = [
     Case { name: "foliar bake", program: FOLIAR, arguments: &["bake", "tree.obj", "-o", "bake.glb"],
         output: Some("bake.glb"), reads: OBJ },
     Case { name: "foliar rebake", program: FOLIAR, arguments: &["rebake", "baked.glb", "-o", "rebake.glb", "--up", "z"],
@@ -42,6 +45,8 @@ const CASES: [Case; 16] = [
         output: Some("light.glb"), reads: OBJ },
     Case { name: "foliar-noise", program: NOISE, arguments: &["-o", "noise.png", "--size", "64", "--kmax", "16"],
         output: Some("noise.png"), reads: &[] },
+    Case { name: "foliar-leafscan", program: LEAFSCAN, arguments: &["leaf.obj", "-o", "leaf.exr", "--resolution", "32"],
+        output: Some("leaf.exr"), reads: &["leaf.obj"] },
     Case { name: "foliar-view", program: VIEW,
         arguments: &["tree.obj", "-o", "view.png", "--width-px", "64", "--height-px", "48", "--samples", "1"],
         output: Some("view.png"), reads: OBJ },
@@ -58,6 +63,7 @@ const CASES: [Case; 16] = [
 fn prepared() -> tempfile::TempDir {
     let here = folder();
     tree(here.path(), 20);
+    leaf(here.path(), &[]);
     run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "baked.glb"]).expect(0, &[]);
     run_in(here.path(), IMPORT, &["tree.obj", "-o", "plant.glb"]).expect(0, &[]);
     run_in(here.path(), DENSITY, &["plant.glb", "-o", "density.layer"]).expect(0, &[]);

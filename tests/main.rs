@@ -19,6 +19,7 @@ mod import;
 mod inspect;
 mod laws;
 mod layers;
+mod leafscan;
 mod moving;
 mod neighbors;
 mod pack;

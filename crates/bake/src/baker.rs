@@ -30,10 +30,12 @@ pub struct Needs {
     pub branches: bool,
     /// Names of maps.
     pub maps: &'static [&'static str],
+    /// A mesh that is no tree, handed over as a plant without structure; or maps in its place.
+    pub scan: bool,
 }
 
 impl Needs {
-    /// Whether it bakes from nothing: what it makes belongs to a library, not to a tree.
+    /// Whether it needs no tree and no maps of one: what it makes belongs to a library.
     pub fn nothing(&self) -> bool {
         !self.plant && self.maps.is_empty()
     }

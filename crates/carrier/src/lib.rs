@@ -192,7 +192,20 @@ pub fn write(document: &Document, path: &Path) -> Result<Outcome, CarrierError> 
 /// # Errors
 /// [`CarrierError::Input`] for a raster of no or more than four channels.
 pub fn encode_raster(raster: &FloatRaster, name: &str, path: &Path) -> Result<Vec<u8>, CarrierError> {
-    raster_file::encode(raster, name, path)
+    raster_file::encode(raster, name, None, path)
+}
+
+/// The same; a PNG's numbers span `range` where it is given.
+///
+/// # Errors
+/// As [`encode_raster`].
+pub fn encode_raster_between(
+    raster: &FloatRaster,
+    name: &str,
+    range: Option<(f64, f64)>,
+    path: &Path,
+) -> Result<Vec<u8>, CarrierError> {
+    raster_file::encode(raster, name, range, path)
 }
 
 /// A layer as a safetensors file: arrays by name, the record as canonical JSON in its metadata.

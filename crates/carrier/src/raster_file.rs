@@ -15,23 +15,33 @@ use std::path::Path;
 
 const REPORT: &str = "report it: a fault of foliar";
 
-/// The bytes of a raster, by the ending of `path`: `.exr`, else PNG.
-pub(crate) fn encode(raster: &FloatRaster, name: &str, path: &Path) -> Result<Vec<u8>, CarrierError> {
+/// The bytes of a raster, by the ending of `path`: `.exr`, else PNG over `range`, or the declared one.
+pub(crate) fn encode(
+    raster: &FloatRaster,
+    name: &str,
+    range: Option<(f64, f64)>,
+    path: &Path,
+) -> Result<Vec<u8>, CarrierError> {
     let fail = |problem: String| CarrierError::input(path.display().to_string(), name, problem, REPORT);
     if !raster.is_whole() || !(1..=4).contains(&raster.channels) {
         return Err(fail(format!("{} numbers for {} channels", raster.data.len(), raster.channels)));
     }
     match path.extension() {
         Some(ending) if ending.eq_ignore_ascii_case("exr") => exr_bytes(raster).map_err(|e| fail(e.to_string())),
-        _ => png_bytes(raster, name).map_err(|e| fail(e.to_string())),
+        _ => png_bytes(raster, range.unwrap_or_else(|| declared(name))).map_err(|e| fail(e.to_string())),
     }
 }
 
-/// The declared range over all 16-bit numbers: 0 is the least value, 65535 the greatest. Two channels go into red and
+fn declared(name: &str) -> (f64, f64) {
+    raster(name).map_or((0.0, 1.0), |info| (f64::from(info.min), f64::from(info.max)))
+}
+
+/// The range over all 16-bit numbers: 0 is the least value, 65535 the greatest. Two channels go into red and
 /// green of RGB, with a blue of 0: gray with alpha would be premultiplied by half of the readers.
-fn png_bytes(floats: &FloatRaster, name: &str) -> Result<Vec<u8>, image::ImageError> {
-    let (min, max) = raster(name).map_or((0.0, 1.0), |info| (f64::from(info.min), f64::from(info.max)));
-    let word = |value: f32| ((f64::from(value) - min) / (max - min) * 65_535.0).round().clamp(0.0, 65_535.0) as u16;
+fn png_bytes(floats: &FloatRaster, (min, max): (f64, f64)) -> Result<Vec<u8>, image::ImageError> {
+    // A map of one value, its black and white the same, is black.
+    let span = (max - min).max(f64::MIN_POSITIVE);
+    let word = |value: f32| ((f64::from(value) - min) / span * 65_535.0).round().clamp(0.0, 65_535.0) as u16;
     let (stored, color) = match floats.channels {
         1 => (1, ExtendedColorType::L16),
         4 => (4, ExtendedColorType::Rgba16),
@@ -73,7 +83,7 @@ mod tests {
     #[test]
     fn png_holds_the_value_to_half_a_step_of_16_bits() {
         let raster = ramp();
-        let bytes = encode(&raster, names::RASTER_NOISE, Path::new("a.png")).unwrap();
+        let bytes = encode(&raster, names::RASTER_NOISE, None, Path::new("a.png")).unwrap();
         let picture = image::load_from_memory(&bytes).unwrap();
         assert_eq!(picture.color(), image::ColorType::Rgb16);
         for (texel, pixel) in raster.data.chunks(2).zip(picture.to_rgb16().pixels()) {
@@ -88,8 +98,8 @@ mod tests {
     #[test]
     fn exr_holds_every_bit_and_comes_out_the_same_twice() {
         let raster = ramp();
-        let bytes = encode(&raster, names::RASTER_NOISE, Path::new("a.exr")).unwrap();
-        assert_eq!(bytes, encode(&raster, names::RASTER_NOISE, Path::new("a.exr")).unwrap());
+        let bytes = encode(&raster, names::RASTER_NOISE, None, Path::new("a.exr")).unwrap();
+        assert_eq!(bytes, encode(&raster, names::RASTER_NOISE, None, Path::new("a.exr")).unwrap());
         let image =
             read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
         let image = image.from_buffered(Cursor::new(bytes)).unwrap();
@@ -104,6 +114,6 @@ mod tests {
     #[test]
     fn a_torn_raster_is_refused() {
         let raster = FloatRaster { data: vec![0.0; 3], ..ramp() };
-        assert!(encode(&raster, names::RASTER_NOISE, Path::new("a.png")).is_err());
+        assert!(encode(&raster, names::RASTER_NOISE, None, Path::new("a.png")).is_err());
     }
 }

@@ -3,8 +3,13 @@
 use foliar_bake::Baker;
 
 /// Every baker of this version: rooms in the order in which files list them, then those of libraries.
-pub const BAKERS: &[&dyn Baker] =
-    &[&foliar_wind::Wind, &foliar_light::Light, &foliar_density::Density, &foliar_wind::Noise];
+pub const BAKERS: &[&dyn Baker] = &[
+    &foliar_wind::Wind,
+    &foliar_light::Light,
+    &foliar_density::Density,
+    &foliar_wind::Noise,
+    &foliar_translucency::Leafscan,
+];
 
 #[cfg(test)]
 mod tests {

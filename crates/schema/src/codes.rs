@@ -83,6 +83,7 @@ codes! {
     LOST_ROLE = "LOST-ROLE", Warning, "A tool dropped the roles of primitives: wood and leaves are not told apart any more.";
     LOST_TABLE = "LOST-TABLE", Error, "A tool dropped a property table: facts about leaves or branches are gone.";
     MAP_BITS = "MAP-BITS", Warning, "A map has so few bits that its steps show: give 16 bits or floats.";
+    MAP_ESTIMATED = "MAP-ESTIMATED", Note, "A map was estimated from a photograph, not measured: take it as an artist's guess.";
     MAP_NORMALS = "MAP-NORMALS", Warning, "Normals of no length were taken for straight ones: is it a normal map?";
     MAP_THIN = "MAP-THIN", Note, "Texels of a leaf that are thinner than anything grows were taken for the least thickness.";
     MATERIAL_CULLED = "MATERIAL-CULLED", Warning, "A leaf material is seen from one side only, and its leaves have no back: half of them vanish; set doubleSided.";
@@ -96,6 +97,11 @@ codes! {
     ROLE_MIXED = "ROLE-MIXED", Warning, "One part holds trunk and crown without a hint: split it in the modeller, or name its role.";
     ROLE_UNMATCHED = "ROLE-UNMATCHED", Warning, "A pattern of section `roles` matches no part: correct it, or take it out.";
     ROLE_UNSURE = "ROLE-UNSURE", Warning, "The role of a part is a guess: paste the printed lines into foliar.toml; or patterns of two roles match it: change one.";
+    SCAN_BENT = "SCAN-BENT", Warning, "A scanned leaf bends away from its plane: its thickness along one axis is too large where it slopes; scan it in its texture coordinates (--unwrap uv).";
+    SCAN_BROKEN = "SCAN-BROKEN", Warning, "A scanned mesh has holes or inverted faces where no thickness can be told: those texels are empty; close the mesh.";
+    SCAN_FOLDED = "SCAN-FOLDED", Note, "A scanned leaf lies over itself: the layer next to the front was taken.";
+    SCAN_OPEN = "SCAN-OPEN", Warning, "A scanned mesh is not closed: close its holes; texels over them are left empty, never filled.";
+    SCAN_TURNED = "SCAN-TURNED", Warning, "Faces of a scanned mesh are inverted: make all of them face outward.";
     STALE = "STALE", Warning, "The base, or a neighbor, has changed since a record was baked: run foliar rebake.";
     STALE_UNKNOWN = "STALE-UNKNOWN", Note, "Whether the base has changed since a record was baked was not looked at: its pictures are too large to be decoded for that.";
     TEXTURE_BROKEN = "TEXTURE-BROKEN", Error, "A picture cannot be read: damaged, cut, or no picture at all.";

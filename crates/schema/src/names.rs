@@ -81,6 +81,8 @@ pub const RASTER_TRANSLUCENCY_BACK: &str = "translucencyBack";
 pub const BAND_RED: &str = "Red";
 /// Ending of a raster of blue light.
 pub const BAND_BLUE: &str = "Blue";
+/// The baker of leaf scans: maps for a library, no part of a tree.
+pub const ROOM_LEAFSCAN: &str = "leafscan";
 /// Map of a leaf's thickness.
 pub const MAP_THICKNESS: &str = "thickness";
 /// Map of where the leaf is.

@@ -23,6 +23,8 @@ pub enum Direct<'a> {
     Pack,
     /// The parameters of one section and no others.
     Alone(&'a str),
+    /// Import, and the parameters of one section.
+    Scan(&'a str),
 }
 
 impl Direct<'_> {
@@ -32,6 +34,7 @@ impl Direct<'_> {
             Direct::Import => field.section == "import",
             Direct::Pack => field.section == "import" || field.section == "pack",
             Direct::Alone(section) => field.section == *section,
+            Direct::Scan(section) => field.section == "import" || field.section == *section,
             Direct::Assets => is_asset(field) || is_shared(field),
             Direct::Sections(sections) => is_asset(field) || sections.contains(&field.section.as_str()),
         })

@@ -175,7 +175,8 @@ impl Rays {
 
     fn inner(&self, beam: &Beam) -> Ray {
         let reach = beam.reach * self.scale;
-        Ray::new((beam.origin * self.scale).into(), beam.direction.into(), 0.0, reach)
+        // A component of -0 is positive to one half of the traversal and negative to the other, and all is missed.
+        Ray::new((beam.origin * self.scale).into(), (beam.direction + Vec3::ZERO).into(), 0.0, reach)
     }
 
     /// Moeller and Trumbore's test (1997), with the distance in the BVH's unit beside the hit.
@@ -337,6 +338,24 @@ mod tests {
         assert_eq!(seen, [0, 1]);
         let back = Beam { origin: Vec3::Z * -9.0, direction: Vec3::Z, ..beam };
         assert!(rays.nearest(&Beam { reach: 9.0, ..back }, None, |_| true).is_some_and(|hit| hit.triangle == 2));
+    }
+
+    #[test]
+    fn zeros_of_either_sign_are_one_direction() {
+        let rays = Rays::new(&soup(400)).unwrap();
+        let mut met = 0;
+        for start in beams().map(|b| b.origin) {
+            let hit = |direction| rays.nearest(&Beam { origin: start, direction, reach: 9.0 }, None, |_| true);
+            for (plus, minus) in [
+                (Vec3::NEG_Z, Vec3::new(-0.0, -0.0, -1.0)),
+                (Vec3::Y, Vec3::new(-0.0, 1.0, 0.0)),
+                (Vec3::X, Vec3::new(1.0, 0.0, -0.0)),
+            ] {
+                assert_eq!(hit(plus), hit(minus));
+                met += usize::from(hit(plus).is_some());
+            }
+        }
+        assert!(met > 20, "{met}");
     }
 
     #[test]

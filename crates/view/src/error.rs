@@ -38,6 +38,9 @@ pub enum ViewError {
     /// Triangles that no ray can be cast at.
     #[error("the plant cannot be drawn: {0}")]
     Rays(#[from] RayError),
+    /// A layer that holds no light through leaves.
+    #[error("the layer of {0:?} holds no maps of light through a leaf: name one that foliar-translucency wrote")]
+    NoLeaf(String),
     /// Two pictures that should be of one size are not.
     #[error("pictures of {0}x{1} and {2}x{3} pixels cannot be compared: make them the same size")]
     Sizes(u32, u32, u32, u32),

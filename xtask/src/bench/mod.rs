@@ -15,6 +15,7 @@ mod reading;
 mod shading;
 mod size;
 mod surface;
+pub mod translucency;
 pub mod wind;
 
 use anyhow::{Context, Result, bail};
@@ -95,6 +96,29 @@ const MEASURES: &[Measure] = &[
     ("noise-seam", wind::noise_seam),
     ("noise-correlation", wind::noise_correlation),
     ("noise-mean", wind::noise_mean),
+    ("translucency-seconds", translucency::seconds),
+    ("translucency-rgb-seconds", translucency::rgb_seconds),
+    ("translucency-large-seconds", translucency::large_seconds),
+    ("translucency-large-memory", translucency::large_memory),
+    ("translucency-tables-seconds", translucency::tables),
+    ("translucency-bank-error", translucency::bank_error),
+    ("translucency-fft-ratio", translucency::fft_ratio),
+    ("translucency-oracle-slab-24", translucency::oracle::slab_24),
+    ("translucency-oracle-slab-16", translucency::oracle::slab_16),
+    ("translucency-oracle-energy", translucency::oracle::energy),
+    ("translucency-oracle-layers", translucency::oracle::layers),
+    ("translucency-oracle-layers-turned", translucency::oracle::layers_turned),
+    ("translucency-oracle-diffusion", translucency::oracle::diffusion),
+    ("translucency-oracle-diffusion-slanting", translucency::oracle::diffusion_slanting),
+    ("translucency-oracle-radial", translucency::oracle::radial),
+    ("translucency-oracle-golden-direct", translucency::oracle::golden_direct),
+    ("translucency-oracle-golden-inside", translucency::oracle::golden_inside),
+    ("translucency-oracle-golden", translucency::oracle::golden_anywhere),
+    ("translucency-oracle-relief-linear", translucency::oracle::relief_linear),
+    ("translucency-oracle-relief-curve", translucency::oracle::relief_curve),
+    ("translucency-oracle-relief-exit", translucency::oracle::relief_exit),
+    ("translucency-oracle-leaf-params", translucency::oracle::leaf_params),
+    ("translucency-oracle-leaves", translucency::oracle::leaves),
     ("expected-files", expected::files),
     ("linden-leaves", expected::linden_leaves),
     ("oracle-error", oracle::worst),

@@ -3,6 +3,7 @@
 
 mod engines;
 pub mod judged;
+mod leaf_pictures;
 pub mod light;
 mod normals;
 mod occluders;
@@ -13,6 +14,7 @@ mod rungs;
 mod scores;
 mod subsets;
 mod tables;
+mod translucency;
 pub mod trees;
 mod wind;
 
@@ -30,7 +32,8 @@ pub fn run(name: Option<&str>) -> Result<()> {
         Some("density") => density(),
         Some("wind") => wind::run(),
         Some("light") => engines::run(),
-        _ => bail!("there are comparisons of density, wind and light: cargo xtask tradeoff density"),
+        Some("translucency") => translucency::run(),
+        _ => bail!("there are comparisons of density, wind, light and translucency: cargo xtask tradeoff density"),
     }
 }
 

@@ -19,6 +19,9 @@ const MEASURED: &str = "measured";
 
 /// Runs the command.
 pub fn run(call: &Call, room: &str) -> Result<(), Failure> {
+    if let Some(baker) = call.bakers.iter().find(|baker| baker.room() == room && baker.needs().scan) {
+        return super::scan::run(call, *baker);
+    }
     let options = Options::from(call.matches);
     let console = options.console();
     let sources = Sources::new(call, Direct::Alone(room))?;

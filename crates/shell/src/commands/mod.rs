@@ -11,9 +11,11 @@ mod inspect;
 mod library;
 mod pack;
 mod rebake;
+mod scan;
 mod strip;
 mod tree;
 mod view;
+mod view_leaf;
 
 pub use tree::{Program, commands};
 

@@ -65,6 +65,9 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
             let command = command.about(format!("Bakes one room: {}", about(room)));
             flags::with_surface(baking(command, fields, Direct::Sections(&room_sections(bakers, room))), &own)
         }
+        Program::Library(room) if bakers.iter().any(|b| b.room() == *room && b.needs().scan) => {
+            scan(command.about(format!("Bakes {}", about(room))), fields, room)
+        }
         Program::Library(room) => library(command.about(format!("Bakes {}", about(room))), fields, room),
         Program::View => view(command, fields),
         Program::Pack => pack(command, fields),
@@ -168,10 +171,25 @@ fn library(command: Command, fields: &Fields, room: &str) -> Command {
     common(command, fields, Direct::Alone(room), Leaves::Files)
 }
 
+/// A command whose input is a mesh that is no tree.
+fn scan(command: Command, fields: &Fields, room: &str) -> Command {
+    let command = command
+        .arg(
+            flags::inputs("MESH", "OBJ, glTF or GLB file of one closed leaf; - is standard input")
+                .num_args(1)
+                .required(true),
+        )
+        .arg(
+            flags::output("Output: .exr (every bit), .png (16 bits) of thickness, the other maps beside it; or .layer")
+                .required(true),
+        );
+    common(command, fields, Direct::Scan(room), Leaves::Files)
+}
+
 fn view(command: Command, fields: &Fields) -> Command {
     let command = command
         .about("Draws a tree as it is lit, or a channel in false colors")
-        .arg(flags::inputs("FILE", "OBJ, glTF or GLB file; - is standard input").num_args(1).required(true))
+        .arg(flags::inputs("FILE", "OBJ, glTF or GLB file, or a .layer of light through a leaf; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .png, or - for standard output").required(true))
         .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"))
         .arg(flags::path("against", "FILE", "Draws FILE beside it, and what differs").conflicts_with("sheet"))

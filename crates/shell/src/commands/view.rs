@@ -1,6 +1,6 @@
 //! `foliar-view`: pictures.
 
-use super::Call;
+use super::{Call, view_leaf};
 use crate::Failure;
 use crate::bake_one::view_params;
 use crate::flags::Direct;
@@ -30,6 +30,15 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     let wanted = Wanted::from(call.matches);
     let job = Job { input, output: Some(output.clone()) };
     runner::run(&options, &console, &[job], &mut |job, report| {
+        if view_leaf::is_layer(&job.input) {
+            view_leaf::refuse_others(&options, wanted.name())?;
+            if options.mode == Mode::DryRun {
+                return Ok(report.planned(&output, "a sheet of a leaf lit from behind"));
+            }
+            let other = call.matches.get_one::<PathBuf>("against").map(PathBuf::as_path);
+            let bytes = view_leaf::draw(&job.input, other, report)?;
+            return Ok(Product::Files(vec![OutputFile { path: output.clone(), bytes }]));
+        }
         let mut loaded = load(&sources, &options, &job.input)?;
         let stands = neighbors::named(&mut loaded.settings)?.remove("view").unwrap_or_default();
         report.loaded(&loaded);

@@ -69,18 +69,17 @@ impl Rows {
         out: &mut [f32],
     ) {
         let thickness = &map.thickness_mm[y * map.width..(y + 1) * map.width];
-        if thickness.iter().all(|d| *d <= 0.0) {
-            return;
-        }
+        let Some(first) = thickness.iter().position(|d| *d > 0.0) else { return };
+        let last = thickness.iter().rposition(|d| *d > 0.0).unwrap_or(first);
+        // Beside the leaf nothing leaves.
+        let columns = first..last + 1;
         self.filters.resize_with(wide.len(), Vec::new);
         for (j, filter) in tables.bank.filters.iter().enumerate().skip(1) {
             let row = &mut self.filters[j];
+            row.resize(out.len(), 0.0);
             match &wide[j] {
-                Some(image) => {
-                    row.resize(out.len(), 0.0);
-                    image.drawn_up(y, &mut self.padded, row);
-                }
-                None => full.filtered_row(y, &filter.x, &filter.y, &mut self.padded, row),
+                Some(image) => image.drawn_up(y, &mut self.padded, row),
+                None => full.filtered_row(y, (&filter.x, &filter.y), &columns, &mut self.padded, row),
             }
         }
         for (x, d) in thickness.iter().enumerate().filter(|(_, d)| **d > 0.0) {

@@ -2,6 +2,7 @@
 
 use crate::kernel::Taps;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Binomial halving: variance 1 texel squared, and nothing of the highest wave.
 const HALVING: [f32; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
@@ -64,30 +65,42 @@ impl Image {
         Image { width, height, data, level, full: self.full }
     }
 
-    /// One row filtered both ways, into `out`; `padded` is room for a row and its surroundings.
-    pub fn filtered_row(&self, y: usize, across: &Taps, down: &Taps, padded: &mut Vec<f32>, out: &mut Vec<f32>) {
-        let (reach, length) = (across.radius() * 3, self.width * 3);
+    /// The texels `columns` of a row filtered both ways, into the same place of `out`; `padded` is room for them and their
+    /// surroundings.
+    pub fn filtered_row(
+        &self,
+        y: usize,
+        (across, down): (&Taps, &Taps),
+        columns: &Range<usize>,
+        padded: &mut Vec<f32>,
+        out: &mut [f32],
+    ) {
+        let reach = across.radius();
+        let sources = columns.start.saturating_sub(reach)..(columns.end + reach).min(self.width);
+        let before = 3 * (sources.start + reach - columns.start);
         padded.clear();
-        padded.resize(length + 2 * reach, 0.0);
-        self.column(y, down, &mut padded[reach..reach + length]);
-        out.clear();
-        out.extend(padded[reach..reach + length].iter().map(|v| across.0[0] * v));
+        padded.resize(3 * (columns.len() + 2 * reach), 0.0);
+        self.column(y, down, &sources, &mut padded[before..before + 3 * sources.len()]);
+        let out = &mut out[3 * columns.start..3 * columns.end];
+        let middle = &padded[3 * reach..];
+        out.iter_mut().zip(middle).for_each(|(sum, v)| *sum = across.0[0] * v);
         for (k, tap) in across.0.iter().enumerate().skip(1) {
-            let (left, right) = (&padded[reach - 3 * k..], &padded[reach + 3 * k..]);
+            let (left, right) = (&padded[3 * (reach - k)..], &padded[3 * (reach + k)..]);
             out.iter_mut().zip(left.iter().zip(right)).for_each(|(sum, (a, b))| *sum += tap * (a + b));
         }
     }
 
-    fn column(&self, y: usize, down: &Taps, out: &mut [f32]) {
-        out.iter_mut().zip(self.row(y)).for_each(|(sum, v)| *sum = down.0[0] * v);
+    fn column(&self, y: usize, down: &Taps, columns: &Range<usize>, out: &mut [f32]) {
+        let row = |y: usize| &self.row(y)[3 * columns.start..3 * columns.end];
+        out.iter_mut().zip(row(y)).for_each(|(sum, v)| *sum = down.0[0] * v);
         for (k, tap) in down.0.iter().enumerate().skip(1) {
             match (y.checked_sub(k), (y + k < self.height).then_some(y + k)) {
                 (Some(above), Some(below)) => {
-                    let pairs = self.row(above).iter().zip(self.row(below));
+                    let pairs = row(above).iter().zip(row(below));
                     out.iter_mut().zip(pairs).for_each(|(sum, (a, b))| *sum += tap * (a + b));
                 }
                 (Some(one), None) | (None, Some(one)) => {
-                    out.iter_mut().zip(self.row(one)).for_each(|(sum, v)| *sum += tap * v);
+                    out.iter_mut().zip(row(one)).for_each(|(sum, v)| *sum += tap * v);
                 }
                 (None, None) => break,
             }
@@ -97,13 +110,10 @@ impl Image {
     /// The whole image filtered.
     pub fn filtered(&self, across: &Taps, down: &Taps) -> Image {
         let mut data = vec![0.0; self.data.len()];
-        data.par_chunks_exact_mut(self.width * 3).enumerate().for_each_init(
-            Default::default,
-            |(padded, row), (y, out)| {
-                self.filtered_row(y, across, down, padded, row);
-                out.copy_from_slice(row);
-            },
-        );
+        let all = 0..self.width;
+        data.par_chunks_exact_mut(self.width * 3).enumerate().for_each_init(Vec::new, |padded, (y, out)| {
+            self.filtered_row(y, (across, down), &all, padded, out);
+        });
         Image { data, ..*self }
     }
 

@@ -1,10 +1,13 @@
 //! Maps as they came, made into a leaf: thickness in millimeters, unit normals of each side.
 
-use super::params::{NormalFrame, NormalY, Params, Side, refuse};
+use super::params::{NormalFrame, NormalY, Params, Side, ThicknessFrom, refuse};
 use super::{ROOM, finding};
 use crate::map::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
+use crate::photo::{Look, thickness_from_photo};
+use crate::presets::Preset;
 use foliar_bake::{BakeError, MapRaster, Maps};
 use foliar_schema::{Finding, code, names};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 /// A texel belongs to the leaf where its alpha reaches this.
@@ -56,20 +59,26 @@ impl Sheet {
         let mut sheet = Sheet { width, height, texel_mm: params.texel_mm(width), ..Sheet::default() };
         sheet.read_thickness(maps, thickness, params)?;
         let heights = params.height_scale_mm;
+        let lit = |side: usize| params.sides.list().iter().any(|(shown, _)| shown.lit() == side);
         for (side, normal, relief) in
             [(0, names::MAP_NORMAL_FRONT, names::MAP_HEIGHT_FRONT), (1, names::MAP_NORMAL_BACK, names::MAP_HEIGHT_BACK)]
         {
-            sheet.normals[side] = match (maps.get(normal), maps.get(relief)) {
-                (Some(_), Some(_)) => {
-                    return Err(bad(relief, format!("and {normal} say the same"), "give one of them"));
+            // A side that no light falls on needs no normals.
+            sheet.normals[side] = if !lit(side) {
+                Vec::new()
+            } else {
+                match (maps.get(normal), maps.get(relief)) {
+                    (Some(_), Some(_)) => {
+                        return Err(bad(relief, format!("and {normal} say the same"), "give one of them"));
+                    }
+                    (Some(map), None) => sheet.normals(normal, map, params),
+                    (None, Some(map)) => {
+                        let scale = scale_of(relief, "height_scale_mm", map, heights)?;
+                        let values: Vec<f32> = channel(map).map(|h| h * scale as f32).collect();
+                        normals_from_heights(&values, width, [sheet.texel_mm; 2])
+                    }
+                    (None, None) => Vec::new(),
                 }
-                (Some(map), None) => sheet.normals(normal, map, params),
-                (None, Some(map)) => {
-                    let scale = scale_of(relief, "height_scale_mm", map, heights)?;
-                    let values: Vec<f32> = channel(map).map(|h| h * scale as f32).collect();
-                    normals_from_heights(&values, width, [sheet.texel_mm; 2])
-                }
-                (None, None) => Vec::new(),
             };
         }
         Ok(sheet)
@@ -77,19 +86,10 @@ impl Sheet {
 
     fn read_thickness(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
         let name = names::MAP_THICKNESS;
-        let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
-        let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
-        let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
-        let mut thin = 0;
-        let texel = |(at, value): (usize, f32)| {
-            let d = params.thickness_offset_mm + scale * f64::from(value);
-            if !covered(at, value) {
-                return 0.0;
-            }
-            thin += usize::from(d < LEAST_THICKNESS_MM);
-            d.max(LEAST_THICKNESS_MM) as f32
-        };
-        self.thickness_mm = channel(map).enumerate().map(texel).collect();
+        match params.thickness_from {
+            ThicknessFrom::Map => self.measured(maps, map, params)?,
+            ThicknessFrom::Photo => self.estimated(maps, map, params)?,
+        }
         let leaf = LeafMap { width: self.width, height: self.height, ..LeafMap::default() };
         let leaf = LeafMap { thickness_mm: std::mem::take(&mut self.thickness_mm), ..leaf };
         let (range, median) = (leaf.range_mm(), leaf.median_mm());
@@ -102,11 +102,58 @@ impl Sheet {
             ));
         };
         (self.range_mm, self.median_mm) = (range, median);
+        if params.thickness_from == ThicknessFrom::Map {
+            self.warn_of_steps(map, scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?);
+        }
+        Ok(())
+    }
+
+    /// Thickness as the map says it.
+    fn measured(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
+        let name = names::MAP_THICKNESS;
+        let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
+        let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
+        let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
+        let stored = |value: f32| params.thickness_offset_mm + scale * f64::from(value);
+        let texel = |(at, texel): (usize, &[f32])| {
+            if covered(at, texel[0]) { stored(texel[0]).max(LEAST_THICKNESS_MM) as f32 } else { 0.0 }
+        };
+        let texels = || map.raster.data.par_chunks_exact(map.raster.channels.max(1) as usize).enumerate();
+        self.thickness_mm = texels().map(texel).collect();
+        let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
+        let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
         if thin > 0 {
             let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
             self.findings.push(finding(&code::MAP_THIN, name, message));
         }
-        self.warn_of_steps(map, scale);
+        Ok(())
+    }
+
+    /// Thickness estimated from a photograph; said to be that.
+    fn estimated(&mut self, maps: &Maps, map: &MapRaster, params: &Params) -> Result<(), BakeError> {
+        let name = names::MAP_THICKNESS;
+        let channels = map.raster.channels as usize;
+        if channels < 3 {
+            return Err(bad(name, format!("has {channels} channels"), "a photograph has red, green and blue"));
+        }
+        let alpha = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect::<Vec<f32>>());
+        // Whole numbers of a photograph are bent as sRGB is; floats are linear.
+        let linear = |v: f32| if map.bits == 32 { v } else { linear(v) };
+        let texel = |(at, texel): (usize, &[f32])| {
+            let own = if channels > 3 { texel[3] } else { 1.0 };
+            let alpha = alpha.as_ref().map_or(own, |alpha| alpha[at]);
+            [linear(texel[0]), linear(texel[1]), linear(texel[2]), alpha]
+        };
+        let rgba: Vec<[f32; 4]> = map.raster.data.par_chunks_exact(channels).enumerate().map(texel).collect();
+        let usual = Preset::named(params.leaf.name()).map_or(0.2, |preset| preset.thickness_mm);
+        let look = Look { mean_mm: params.thickness_mean_mm.unwrap_or(usual), veins: params.veins };
+        self.thickness_mm = thickness_from_photo(rgba.as_flattened(), self.width, &look);
+        let message = format!(
+            "thickness was estimated from a photograph, veins thick and rim thin, {} mm on the mean: nothing of it was \
+             measured",
+            look.mean_mm
+        );
+        self.findings.push(finding(&code::MAP_ESTIMATED, name, message));
         Ok(())
     }
 
@@ -134,17 +181,16 @@ impl Sheet {
             if name == names::MAP_NORMAL_BACK && params.normal_frame == NormalFrame::RightHanded { -1.0 } else { 1.0 },
             if params.normal_y == NormalY::Down { -1.0 } else { 1.0 },
         ];
-        let mut none = 0;
+        let decoded = |values: &[f32]| [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
+        let length = |n: [f32; 3]| n.iter().map(|v| v * v).sum::<f32>().sqrt();
         let texel = |values: &[f32]| {
-            let n = [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
-            let length = n.iter().map(|v| v * v).sum::<f32>().sqrt();
-            if length > f32::EPSILON {
-                return n.map(|v| v / length);
-            }
-            none += 1;
-            [0.0, 0.0, 1.0]
+            let n = decoded(values);
+            let length = length(n);
+            if length > f32::EPSILON { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] }
         };
-        let normals = map.raster.data.chunks_exact(channels).map(texel).collect();
+        let texels = || map.raster.data.par_chunks_exact(channels);
+        let normals = texels().map(texel).collect();
+        let none = texels().filter(|values| length(decoded(values)) <= f32::EPSILON).count();
         if none > 0 {
             let message = format!("{none} normals have no length: taken for straight ones");
             self.findings.push(finding(&code::MAP_NORMALS, name, message));
@@ -152,14 +198,12 @@ impl Sheet {
         normals
     }
 
-    /// The leaf as light meets it whose map is shown on `side`: the other side is lit.
-    pub fn lit_side(&self, side: Side) -> LeafMap {
-        let lit = match side {
-            Side::Front => &self.normals[1],
-            Side::Back => &self.normals[0],
-        };
+    /// The leaf as light meets it whose map is shown on `side`: the other side is lit. Its normals are handed over, which
+    /// at 4096 x 4096 texels are 200 MB: once a side.
+    pub fn lit_side(&mut self, side: Side) -> LeafMap {
         let (width, height) = (self.width, self.height);
-        LeafMap { width, height, thickness_mm: self.thickness_mm.clone(), normals: lit.clone() }
+        let normals = std::mem::take(&mut self.normals[side.lit()]);
+        LeafMap { width, height, thickness_mm: self.thickness_mm.clone(), normals }
     }
 
     /// What a record says of the whole leaf.
@@ -167,6 +211,7 @@ impl Sheet {
         let facts = json!({
             "texelMm": self.texel_mm,
             "thicknessMm": { "least": self.range_mm.0, "median": self.median_mm, "greatest": self.range_mm.1 },
+            "thicknessFrom": params.thickness_from,
             "normalize": params.normalize,
             "frame": "x image right, y image up, z out of the lit side, which is not the side that shows the map",
             "decode": "t = max(0, R b1.l + G b2.l + B b3.l) (a0 + a1 l.z), 0 where l.z <= 0; A is the mean over directions",
@@ -179,6 +224,11 @@ impl Sheet {
 /// First channel of a map.
 fn channel(map: &MapRaster) -> impl Iterator<Item = f32> + '_ {
     map.raster.data.iter().step_by(map.raster.channels.max(1) as usize).copied()
+}
+
+/// Linear light of an sRGB value (IEC 61966-2-1).
+fn linear(encoded: f32) -> f32 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { libm::powf((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// Millimeters of 1 in a map.
@@ -206,7 +256,7 @@ fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result
         let problem = format!("has {} channels and {} numbers", raster.channels, raster.data.len());
         return Err(bad(name, problem, "a normal map has three channels, any other at least one"));
     }
-    match raster.data.iter().position(|v| !v.is_finite()) {
+    match raster.data.par_iter().position_first(|v| !v.is_finite()) {
         None => Ok(()),
         Some(at) => {
             let texel = at / raster.channels as usize;

@@ -2,6 +2,7 @@
 
 use super::params::{Normalize, Params};
 use crate::map::{LeafMap, Tables};
+use rayon::prelude::*;
 
 /// Least mean that anything is divided by: what lets nothing through stays dark.
 const LEAST: f32 = 1e-6;
@@ -41,8 +42,11 @@ fn diffuse(c: &[f32], tables: &Tables) -> f32 {
 
 /// Coefficients and the answer to diffuse light, four numbers a texel; nothing where there is no leaf.
 pub fn with_mean(map: &LeafMap, coefficients: &[f32], tables: &Tables) -> Vec<f32> {
-    let texel = |(c, d): (&[f32], &f32)| {
-        if *d > 0.0 { [c[0], c[1], c[2], diffuse(c, tables)] } else { [0.0; 4] }
-    };
-    coefficients.chunks_exact(3).zip(&map.thickness_mm).flat_map(texel).collect()
+    let mut texels = vec![0.0; 4 * map.thickness_mm.len()];
+    let leaf = texels.par_chunks_exact_mut(4).zip(coefficients.par_chunks_exact(3)).zip(&map.thickness_mm);
+    leaf.filter(|(_, d)| **d > 0.0).for_each(|((texel, c), _)| {
+        texel[..3].copy_from_slice(c);
+        texel[3] = diffuse(c, tables);
+    });
+    texels
 }

@@ -3,6 +3,7 @@
 use super::ROOM;
 use crate::light::{Entry, Fit};
 use crate::map::{Model, Spreading};
+use crate::photo::Veins;
 use foliar_bake::BakeError;
 use foliar_schema::names;
 use schemars::JsonSchema;
@@ -82,6 +83,16 @@ pub enum Side {
     Back,
 }
 
+impl Side {
+    /// Which side light falls on where this one is shown: 0 front, 1 back.
+    pub(super) fn lit(self) -> usize {
+        match self {
+            Side::Front => 1,
+            Side::Back => 0,
+        }
+    }
+}
+
 impl Sides {
     /// Each side with the name of its raster.
     pub fn list(self) -> &'static [(Side, &'static str)] {
@@ -117,6 +128,17 @@ pub enum NormalY {
     Down,
 }
 
+/// What the map of thickness is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ThicknessFrom {
+    /// Thickness, measured or painted.
+    #[default]
+    Map,
+    /// A photograph in color with alpha: thickness is estimated, veins thick, rim thin, the mean as `thickness_mean_mm` says.
+    Photo,
+}
+
 /// Whether a measured reflectance holds the surface's mirror.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -144,6 +166,13 @@ pub struct Params {
     pub thickness_scale_mm: Option<f64>,
     /// Thickness of the leaf where the map is 0, mm.
     pub thickness_offset_mm: f64,
+    /// What the thickness map is.
+    pub thickness_from: ThicknessFrom,
+    /// Mean thickness of a photographed leaf, mm; nothing said: that of the kind of leaf.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub thickness_mean_mm: Option<f64>,
+    /// How veins look in a photograph.
+    pub veins: Veins,
     /// Relief of a height map from black to white, mm; nothing said: 1 for maps of floats. Whole numbers need it.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub height_scale_mm: Option<f64>,
@@ -204,6 +233,9 @@ impl Default for Params {
             texel_mm: None,
             thickness_scale_mm: None,
             thickness_offset_mm: 0.0,
+            thickness_from: ThicknessFrom::default(),
+            thickness_mean_mm: None,
+            veins: Veins::default(),
             height_scale_mm: None,
             leaf: LeafKind::default(),
             wavelength_nm: 510.0,

@@ -3,7 +3,10 @@
 mod fits;
 mod lights;
 mod maps;
+mod photos;
 mod room;
+mod scans;
+mod shaders;
 mod slabs;
 
 use serde_json::Value;

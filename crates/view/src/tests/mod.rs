@@ -1,6 +1,7 @@
 //! Laws of pictures, on plants of a few quads whose light is known in closed form.
 
 mod laws;
+mod leaf;
 mod light;
 mod lines;
 

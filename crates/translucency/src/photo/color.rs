@@ -1,0 +1,63 @@
+//! The color of light that came through, from the color that a leaf shows by day.
+//!
+//! At each wavelength the leaf keeps its preset's scattering; its absorption is what makes it as bright as the picture says.
+//! The same leaf then lets through what it lets through.
+
+use crate::presets::Preset;
+use crate::transport::{AddingDoubling, Medium, fresnel_outside};
+use rayon::prelude::*;
+
+/// Red, green and blue stand for light of these wavelengths, nm, as the bands of the room do.
+const WAVELENGTHS_NM: [f64; 3] = [610.0, 550.0, 450.0];
+/// Absorptions that are solved, and their range, 1/mm: from glass to soot.
+const SOLVED: usize = 48;
+const RANGE: (f64, f64) = (1e-4, 300.0);
+const NODES: usize = 16;
+
+/// A leaf of one kind and thickness, solved for all colors.
+#[derive(Clone, Debug)]
+pub struct ColorEstimate {
+    /// Per band, (albedo, transmission) by rising albedo.
+    bands: [Vec<(f64, f64)>; 3],
+}
+
+impl ColorEstimate {
+    /// Solves a leaf of this kind and thickness, mm. `None` for a preset that ends within the visible.
+    pub fn new(preset: &Preset, thickness_mm: f64) -> Option<ColorEstimate> {
+        let mut bands = [const { Vec::new() }; 3];
+        for (band, wavelength) in bands.iter_mut().zip(WAVELENGTHS_NM) {
+            *band = solved(&preset.medium(wavelength)?, thickness_mm);
+        }
+        Some(ColorEstimate { bands })
+    }
+
+    /// Linear color of light that came through a place of this albedo (linear base color): below 1, rising with it. What is
+    /// brighter than a leaf without any absorption is taken for one.
+    pub fn of(&self, albedo: [f32; 3]) -> [f32; 3] {
+        std::array::from_fn(|c| between(&self.bands[c], f64::from(albedo[c])) as f32)
+    }
+}
+
+fn solved(medium: &Medium, thickness_mm: f64) -> Vec<(f64, f64)> {
+    let (low, high) = (libm::log(RANGE.0), libm::log(RANGE.1));
+    let row = |i: usize| {
+        // From soot to glass: albedo rises.
+        let absorption = libm::exp(high + (low - high) * i as f64 / (SOLVED - 1) as f64);
+        let totals = AddingDoubling::one(&Medium { absorption, ..*medium }, thickness_mm, 1.0, NODES);
+        // The mirror of the surface is no part of a base color.
+        ((totals.reflectance - fresnel_outside(1.0, medium.index)).max(0.0), totals.transmittance)
+    };
+    (0..SOLVED).into_par_iter().map(row).collect()
+}
+
+fn between(rows: &[(f64, f64)], albedo: f64) -> f64 {
+    let at = rows.partition_point(|row| row.0 <= albedo);
+    match (at.checked_sub(1).and_then(|i| rows.get(i)), rows.get(at)) {
+        (Some(low), Some(high)) => {
+            let share = (albedo - low.0) / (high.0 - low.0).max(f64::MIN_POSITIVE);
+            low.1 + share * (high.1 - low.1)
+        }
+        (Some(one), None) | (None, Some(one)) => one.1,
+        (None, None) => 0.0,
+    }
+}

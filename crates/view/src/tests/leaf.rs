@@ -1,0 +1,57 @@
+//! A leaf by itself: light from the side that its bumps lean to shows them, two equal bakes do not differ.
+
+use crate::{ViewError, leaf_comparison, leaf_sheet};
+use foliar_bake::{FloatRaster, Layer};
+use foliar_schema::{Record, names};
+use foliar_translucency::light::coefficients;
+use glam::DVec3;
+use image::RgbaImage;
+
+/// 320 x 320 texels whose left half leans left and whose right half leans right, with an empty rim.
+fn layer() -> Layer {
+    const SIDE: usize = 320;
+    let texel = |at: usize| {
+        let (x, y) = (at % SIDE, at / SIDE);
+        if x.min(y) < 4 || x.max(y) >= SIDE - 4 {
+            return [0.0; 4];
+        }
+        let lean = if x < SIDE / 2 { -0.1 } else { 0.1 };
+        let c = coefficients(DVec3::new(lean, 0.0, 0.1)).as_vec3();
+        [c.x, c.y, c.z, 0.1]
+    };
+    let data = (0..SIDE * SIDE).flat_map(texel).collect();
+    let raster = FloatRaster { width: SIDE as u32, height: SIDE as u32, channels: 4, data };
+    let mut layer =
+        Layer { record: Record { room: names::ROOM_TRANSLUCENCY.into(), ..Record::default() }, ..Layer::default() };
+    layer.rasters.insert(names::RASTER_TRANSLUCENCY_BACK.into(), raster);
+    layer
+}
+
+/// Mean green of a place, 12 pixels and the title above the first picture.
+fn green(sheet: &RgbaImage, [column, row]: [u32; 2], x: u32) -> f64 {
+    let cell = (sheet.width() - 12) / 3;
+    let height = 320 + 15 + 4 + 12;
+    let top = 12 + 2 * 24;
+    let (left, top) = (12 + column * cell + x, top + row * height + 100);
+    let all = (0..20).flat_map(|y| (0..20).map(move |x| (left + x, top + y)));
+    all.map(|(x, y)| f64::from(sheet.get_pixel(x, y).0[1])).sum::<f64>() / 400.0
+}
+
+#[test]
+fn a_leaf_answers_to_the_side_that_the_light_is_on() {
+    let sheet = leaf_sheet(&layer(), "leaf").unwrap();
+    // Second and third picture: light from the right, from the left.
+    let [right, left] = [1, 2].map(|column| [green(&sheet, [column, 0], 60), green(&sheet, [column, 0], 240)]);
+    assert!(right[1] > 2.0 * right[0] && left[0] > 2.0 * left[1], "{right:?} {left:?}");
+    let straight = [green(&sheet, [0, 0], 60), green(&sheet, [0, 0], 240)];
+    assert!((straight[0] - straight[1]).abs() < 1.0, "{straight:?}");
+}
+
+#[test]
+fn equal_bakes_do_not_differ() {
+    let layer = layer();
+    let sheet = leaf_comparison([(&layer, "a"), (&layer, "b")]).unwrap();
+    assert!(sheet.width() > 900);
+    let other = Layer::default();
+    assert!(matches!(leaf_sheet(&other, "x"), Err(ViewError::NoLeaf(_))));
+}

@@ -1,0 +1,88 @@
+//! `foliar-leafscan`: a closed mesh of a leaf in, maps out; what is not closed is said.
+
+use crate::common::{LEAFSCAN, folder, run_in};
+use serde_json::Value;
+use std::path::Path;
+
+/// A leaf of 40 x 60 units, .5 thick, without these faces of its twelve.
+pub fn leaf(here: &Path, without: &[usize]) {
+    let mut text = String::new();
+    for z in [0.25, -0.25] {
+        for (x, y) in [(-20, -30), (20, -30), (20, 30), (-20, 30)] {
+            text += &format!("v {x} {y} {z}\n");
+        }
+    }
+    let faces = [
+        [1, 2, 3],
+        [1, 3, 4],
+        [5, 7, 6],
+        [5, 8, 7],
+        [1, 5, 6],
+        [1, 6, 2],
+        [2, 6, 7],
+        [2, 7, 3],
+        [3, 7, 8],
+        [3, 8, 4],
+        [4, 8, 5],
+        [4, 5, 1],
+    ];
+    for (_, [a, b, c]) in faces.into_iter().enumerate().filter(|(i, _)| !without.contains(i)) {
+        text += &format!("f {a} {b} {c}\n");
+    }
+    std::fs::write(here.join("leaf.obj"), text).unwrap();
+}
+
+const SCAN: [&str; 7] = ["leaf.obj", "--unit", "mm", "--up", "y", "--resolution", "64"];
+
+fn json(here: &Path, file: &str) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(here.join(file)).unwrap()).unwrap()
+}
+
+#[test]
+fn a_mesh_becomes_maps_in_millimeters() {
+    let here = folder();
+    let here = here.path();
+    leaf(here, &[]);
+    let said = run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "maps.png"]].concat()).expect(0, &["a texel is 1.000000"]);
+    assert!(!said.stderr.contains("SCAN-"), "{}", said.stderr);
+    let facts = json(here, "maps.json")["record"]["facts"].clone();
+    assert!((facts["texelMm"][0].as_f64().unwrap() - 1.0).abs() < 1e-6);
+    let white = facts["stored"]["thickness"]["white"].as_f64().unwrap();
+    assert!((white - 0.5).abs() < 1e-6);
+    let picture = image::open(here.join("maps.png")).unwrap();
+    assert_eq!((picture.width(), picture.height(), picture.color()), (44, 64, image::ColorType::L16));
+    assert_eq!(picture.to_luma16().get_pixel(20, 30).0, [65_535]);
+    assert_eq!(picture.to_luma16().get_pixel(0, 0).0, [0]);
+    for name in ["height-front", "height-back", "normal-front", "normal-back"] {
+        assert!(here.join(format!("maps-{name}.png")).exists(), "{name}");
+    }
+    let straight = image::open(here.join("maps-normal-back.png")).unwrap().to_rgb16();
+    assert_eq!(straight.get_pixel(20, 30).0, [32_768, 32_768, 65_535]);
+}
+
+#[test]
+fn holes_are_said_and_can_fail_a_pipeline() {
+    let here = folder();
+    let here = here.path();
+    leaf(here, &[0]);
+    let holed = [&SCAN[..], &["-o", "maps.exr"]].concat();
+    run_in(here, LEAFSCAN, &[&holed[..], &["--fail-on", "warning"]].concat()).expect(1, &["SCAN-OPEN", "SCAN-BROKEN"]);
+    assert!(!here.join("maps.exr").exists() && !here.join("maps.json").exists());
+    run_in(here, LEAFSCAN, &holed).expect(0, &["SCAN-OPEN", "3 edges", "SCAN-BROKEN", "left empty"]);
+    assert!(here.join("maps.exr").exists());
+}
+
+#[test]
+fn what_is_no_leaf_is_refused_with_a_remedy() {
+    let here = folder();
+    let here = here.path();
+    // One triangle: nothing has a back.
+    std::fs::write(here.join("leaf.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let flat = [&SCAN[..], &["-o", "maps.exr"]].concat();
+    run_in(here, LEAFSCAN, &flat).expect(3, &["leaf.obj", "no texel of the maps holds any"]);
+    leaf(here, &[]);
+    run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "maps.jpg"]].concat()).expect(2, &[".exr, .png or .layer"]);
+    run_in(here, LEAFSCAN, &[&flat[..], &["--unwrap", "uv"]].concat()).expect(3, &["no texture coordinates"]);
+    run_in(here, LEAFSCAN, &[&SCAN[..5], &["-o", "maps.exr", "--resolution", "4"]].concat()).expect(2, &["resolution"]);
+    assert!(!here.join("maps.exr").exists());
+}
