@@ -185,7 +185,8 @@ fn a_damaged_cache_is_baked_anew() {
 
 #[test]
 fn only_bakes_what_it_names() {
-    run(FOLIAR, &["bake", "a.obj", "-o", "a.glb", "--only", "occlusion"]).expect(2, &["occlusion: not in this version"]);
+    run(FOLIAR, &["bake", "a.obj", "-o", "a.glb", "--only", "occlusion"])
+        .expect(2, &["occlusion: not in this version"]);
     run(FOLIAR, &["bake", "a.obj", "-o", "a.glb", "--only", "soup"]).expect(2, &["no such room; there are wind"]);
 }
 

@@ -1,7 +1,8 @@
 //! The laws that need bytes: base untouched, idempotent, repeatable, all or nothing.
 
 use crate::common::{
-    DENSITY, FOLIAR, IMPORT, LIGHT, WIND, command, folder, glb, made_from, open_glb, output, run, run_in, shared, text, tree,
+    DENSITY, FOLIAR, IMPORT, LIGHT, WIND, command, folder, glb, made_from, open_glb, output, run, run_in, shared, text,
+    tree,
 };
 use serde_json::{Value, json};
 use std::path::Path;
