@@ -6,6 +6,7 @@
 
 use super::given::Sides;
 use super::{Leaf, Light, Optics, Sky, Slant, Sun, octant_cosines, sh, single_bounce};
+use crate::HARMONICS;
 use crate::octants::{OCTANTS, SOLID_ANGLE};
 
 /// Light of a leaf from its eight optical depths.
@@ -16,7 +17,7 @@ pub fn light(leaf: &Leaf, optics: &Optics, sun: &Sun, sky: &Sky) -> Light {
 }
 
 /// The same with the sun's transmittance from nine coefficients (column `sunSh`): sharper shadows inside the crown.
-pub fn light_sh(leaf: &Leaf, sun_sh: &[f64; sh::COUNT], optics: &Optics, sun: &Sun, sky: &Sky) -> Light {
+pub fn light_sh(leaf: &Leaf, sun_sh: &[f64; HARMONICS], optics: &Optics, sun: &Sun, sky: &Sky) -> Light {
     lit(leaf, optics, sun, sky, &Slant::new(sun.toward), sh::transmittance(sun_sh, sun.toward))
 }
 

