@@ -1,7 +1,7 @@
 //! Run-time models of light against paths of light traced through six crowns: the paper's, ours, and what lies between.
-//! Writes the table of docs/tradeoff/light-model.md.
+//! Writes the table of docs/tradeoff/light-model.md and the picture of docs/light.md.
 
-use crate::repo;
+use crate::{repo, shared_trees};
 use anyhow::{Context, Result};
 use foliar_bake::{Baker, Inputs, Maps, Quiet, Request, run as bake};
 use foliar_light::crown::{Crown, EXACT};
@@ -15,12 +15,14 @@ use foliar_plant::Plant;
 use foliar_plant::sample::{Quad, crowns, quads};
 use foliar_schema::names;
 use foliar_space::Beam;
+use foliar_view::{Scale, ViewParams, light_sheet, png_bytes};
 use glam::DVec3;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 const DOCUMENT: &str = "docs/tradeoff/light-model.md";
+const PICTURE: &str = "docs/pictures/linden_light.png";
 /// Paths per side of a leaf.
 const PATHS: u64 = 512;
 /// Leaves of a mean.
@@ -74,7 +76,19 @@ pub fn run() -> Result<()> {
     let text = table(&scored);
     println!("{text}");
     std::fs::write(repo::root().join(DOCUMENT), super::replaced(DOCUMENT, &repo::text(DOCUMENT)?, &text)?)
-        .context(DOCUMENT)
+        .context(DOCUMENT)?;
+    draw()
+}
+
+/// The linden by the model, by paths, and what differs, for two suns.
+fn draw() -> Result<()> {
+    let tree = shared_trees::linden().read()?;
+    let maps = Maps::new();
+    let inputs = Inputs { plant: Some(&tree.plant), maps: &maps, neighbors: &[] };
+    let (layer, _) = bake(&foliar_light::Light, &inputs, &Request::default(), &Quiet)?;
+    let params = ViewParams { width_px: 360, height_px: 360, samples: 8, scale: Scale::None, ..ViewParams::default() };
+    let sheet = light_sheet(&tree.plant, &[&tree.layer, &layer], "linden, default bake", &params)?;
+    std::fs::write(repo::root().join(PICTURE), png_bytes(&sheet)?).context(PICTURE)
 }
 
 /// Two crowns of the oracle and four made by rule.
