@@ -7,6 +7,7 @@ pub mod crown;
 pub mod isa;
 mod kernel;
 pub mod leaves;
+pub mod model;
 pub mod octants;
 pub mod optics;
 mod output;
@@ -17,8 +18,11 @@ pub mod reference;
 mod requirement;
 mod room;
 #[cfg(test)]
+mod testing;
+#[cfg(test)]
 mod tests;
 mod tree;
+pub mod truth;
 pub mod ways;
 
 pub use params::{Engine, Params, SunModel};

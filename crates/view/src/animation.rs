@@ -40,7 +40,7 @@ pub fn turntable(
         };
         render::draw(&scene, Camera::fit(swept.iter().copied(), &params), shading, &params)
     };
-    Ok((0..frames).map(turned).collect())
+    (0..frames).map(turned).collect()
 }
 
 /// Points on the body that points sweep as they turn around the vertical through the picture's center.

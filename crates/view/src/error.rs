@@ -21,6 +21,12 @@ pub enum ViewError {
         /// What there is.
         known: String,
     },
+    /// Plants that stand around one that is lit by its own bake.
+    #[error("look = light and traced draw a plant alone: leave out --neighbor")]
+    Neighbors,
+    /// Sun or sky that the light model does not take.
+    #[error("view: {0}")]
+    Model(#[from] foliar_light::model::ModelError),
     /// A layer does not fit the plant.
     #[error("{name} of part {part} holds {found} rows of {width}, the plant asks for {expected}: bake it again")]
     Shape {

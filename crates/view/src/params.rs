@@ -20,6 +20,10 @@ pub enum Look {
     /// A pen drawing: ink where the normals turn by more than `line_angle_deg`, and round the silhouette (Luft07
     /// Figure 7).
     Lines,
+    /// Sun and sky by what the light room baked (Boulanger08): no shadow rays.
+    Light,
+    /// The same light followed path by path, what `light` stands for: a path per ray, so ask for many samples.
+    Traced,
 }
 
 /// Which normals a pen drawing follows.
@@ -167,6 +171,10 @@ pub enum Shading {
     Stock,
     /// As [`Look::Lines`].
     Lines(Normals),
+    /// As [`Look::Light`].
+    Light,
+    /// As [`Look::Traced`].
+    Traced,
     /// A channel or column in false colors, with a legend.
     Channel(String),
 }
@@ -180,6 +188,8 @@ impl ViewParams {
             (None, Look::Baked) => Shading::Baked,
             (None, Look::Stock) => Shading::Stock,
             (None, Look::Lines) => Shading::Lines(self.line_normals),
+            (None, Look::Light) => Shading::Light,
+            (None, Look::Traced) => Shading::Traced,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::camera::{self, Camera, PLANT_EDGE};
 use crate::frame::Standing;
+use crate::leaf_light::{Lamps, Walk};
 use crate::mask::Mask;
 use crate::scene::Scene;
 use crate::{Background, Ground, Scale, Shading, ViewError, ViewParams, colors, legend, lines, scale, shade};
@@ -62,23 +63,31 @@ pub fn render_among(
     let right = camera::right(params.azimuth_deg).as_vec3();
     let scene = Scene::new(plant, layers, around, shading, (params.scale == Scale::Person).then_some(right))?;
     let camera = Camera::fit(scene.fitted.iter().copied(), params);
-    Ok(draw(&scene, camera, shading, params))
+    draw(&scene, camera, shading, params)
 }
 
 /// The scene as a camera sees it, with its bar and legend.
-pub(crate) fn draw(scene: &Scene, camera: Camera, shading: &Shading, params: &ViewParams) -> RgbaImage {
+///
+/// # Errors
+/// [`ViewError::Model`] for a sun that the light model does not take.
+pub(crate) fn draw(
+    scene: &Scene,
+    camera: Camera,
+    shading: &Shading,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
     let mask = Mask::new(&camera, &scene.triangles, params.width_px, params.height_px);
     let mut picture = match shading {
         Shading::Lines(_) => lines::draw(scene, camera, &mask, params),
-        _ => Tracer::new(scene, camera, mask, params).trace(),
+        _ => Tracer::new(scene, camera, mask, params, shading)?.trace(),
     };
     if params.scale != Scale::None && !scene.fitted.is_empty() {
         scale::bar(&mut picture, &camera, scene.per_meter);
     }
-    match &scene.legend {
+    Ok(match &scene.legend {
         Some(words) => legend::below(picture, words),
         None => picture,
-    }
+    })
 }
 
 struct Tracer<'a> {
@@ -92,6 +101,8 @@ struct Tracer<'a> {
     /// Places inside a pixel, and a number in [0, 1) that goes with each.
     samples: Vec<(Vec2, f32)>,
     ground: bool,
+    /// Sun and sky of the light model, and whether its paths are followed.
+    lamps: Option<(Lamps, bool)>,
 }
 
 /// What the samples of one pixel share.
@@ -110,11 +121,17 @@ struct Shadow {
 }
 
 impl<'a> Tracer<'a> {
-    fn new(scene: &'a Scene, camera: Camera, mask: Mask, params: &'a ViewParams) -> Self {
+    fn new(
+        scene: &'a Scene,
+        camera: Camera,
+        mask: Mask,
+        params: &'a ViewParams,
+        shading: &Shading,
+    ) -> Result<Self, ViewError> {
         let sun = camera::direction(params.sun_azimuth_deg, params.sun_elevation_deg).as_vec3();
         let (across, along) = sun.any_orthonormal_pair();
         let sample = |i: u64| (r2_point(i).as_vec2(), radical_inverse(i, 2) as f32);
-        Tracer {
+        Ok(Tracer {
             scene,
             camera,
             mask,
@@ -123,7 +140,11 @@ impl<'a> Tracer<'a> {
             sun_axes: [across, along],
             samples: (0..u64::from(params.samples)).map(sample).collect(),
             ground: params.ground == Ground::Shadow && scene.legend.is_none() && camera.eye.y > scene.floor,
-        }
+            lamps: match shading {
+                Shading::Light | Shading::Traced => Some((Lamps::new(sun)?, *shading == Shading::Traced)),
+                _ => None,
+            },
+        })
     }
 
     fn trace(&self) -> RgbaImage {
@@ -179,6 +200,16 @@ impl<'a> Tracer<'a> {
     }
 
     fn lit(&self, pixel: &mut Pixel, index: usize, beam: &Beam, hit: &Hit) -> Vec3 {
+        if let (Some((lamps, traced)), Some(baked)) = (&self.lamps, &self.scene.light) {
+            let light = if *traced {
+                // The path meets what the ray met, up to textures that are half there.
+                let walk = Walk { scene: self.scene, baked };
+                walk.traced(lamps, beam, &[u64::from(pixel.seed), index as u64]).unwrap_or_default()
+            } else {
+                lamps.modeled(baked, &self.scene.surface(hit, beam.direction))
+            };
+            return colors::tone(light * self.params.exposure as f32);
+        }
         let surface = self.scene.surface(hit, beam.direction);
         let mut sun = shade::sunlit(&surface, self.sun);
         if sun > 0.0 && !self.scene.stock {

@@ -2,6 +2,7 @@
 
 use crate::camera::PLANT_EDGE;
 use crate::frame::{Frame, Standing};
+use crate::leaf_light::Baked;
 use crate::scale::{self, Person};
 use crate::texture::{self, Cover, Decode, Texture};
 use crate::values::{self, Legend};
@@ -97,6 +98,8 @@ pub(crate) struct Surface {
     pub ambient: f32,
     /// Lets light through.
     pub leaf: bool,
+    /// Eight depths and nine numbers of the light room; zeros where it is not asked for.
+    pub light: ([f32; 8], [f32; 9]),
 }
 
 /// Every vertex of a plant without a value.
@@ -123,6 +126,8 @@ pub(crate) struct Scene<'a> {
     colors: Vec<Vec3>,
     skins: Vec<Skin<'a>>,
     decode: Decode,
+    /// What the light room baked, where a picture asks for it.
+    pub light: Option<Baked>,
 }
 
 impl<'a> Scene<'a> {
@@ -165,10 +170,11 @@ impl<'a> Scene<'a> {
             colors: Vec::new(),
             skins: Vec::new(),
             decode: Decode::new(),
+            light: Baked::asked(plant, layers, around, shading)?,
         };
         let shown = match shading {
             Shading::Channel(name) => Some(values::false_colors(plant, layers, name)?),
-            Shading::Plain | Shading::Baked | Shading::Stock | Shading::Lines(_) => None,
+            _ => None,
         };
         scene.add(plant, layers, shading, frame, shown.as_ref().map(|s| s.colors.as_slice()))?;
         for other in around {
@@ -202,7 +208,7 @@ impl<'a> Scene<'a> {
         let (ambient, soft) = match shading {
             Shading::Baked => (values::ambient(plant, layers)?, soft()?),
             Shading::Lines(Normals::Baked) => (none(), soft()?),
-            Shading::Plain | Shading::Lines(Normals::Plain) | Shading::Stock | Shading::Channel(_) => (none(), none()),
+            _ => (none(), none()),
         };
         let first = self.skins.len();
         self.skins.extend(skins(plant, &soft, self.stock));
@@ -318,6 +324,10 @@ impl<'a> Scene<'a> {
             color: skin.color * texel * factor,
             ambient: self.blend(face, hit, |v| Vec3::splat(self.vertices[v].ambient)).x,
             leaf: skin.leaf,
+            light: self
+                .light
+                .as_ref()
+                .map_or(([0.0; 8], [0.0; 9]), |baked| baked.blend(face.corners, [1.0 - hit.u - hit.v, hit.u, hit.v])),
         }
     }
 

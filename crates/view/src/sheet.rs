@@ -10,6 +10,8 @@ use image::{Rgba, RgbaImage};
 
 /// Pixels between pictures and around them.
 const GAP: u32 = 12;
+/// A path is a noisy sample: so many more of them than of the model's.
+const PATHS_PER_SAMPLE: u32 = 8;
 /// Behind the pictures.
 const PAPER: Rgba<u8> = Rgba([28, 28, 30, 255]);
 
@@ -88,6 +90,30 @@ pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
         text::number(size.z as f32)
     );
     Ok(contact_sheet(&panels, &[title.into(), facts], 2))
+}
+
+/// One tree in the light of two suns: by the model, by paths, and what differs. `params.look` does not count; the second
+/// sun stands opposite to the first.
+///
+/// # Errors
+/// As [`render`].
+pub fn light_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewParams) -> Result<RgbaImage, ViewError> {
+    let mut panels = Vec::new();
+    for (turn, sun) in [(0.0, "the sun as given"), (180.0, "the sun opposite to that")] {
+        // Azimuths of more than a turn are refused.
+        let azimuth = params.sun_azimuth_deg + turn;
+        let lit =
+            ViewParams { sun_azimuth_deg: if azimuth > 360.0 { azimuth - 360.0 } else { azimuth }, ..params.clone() };
+        let paths = ViewParams { samples: (params.samples * PATHS_PER_SAMPLE).min(1024), ..lit.clone() };
+        let model = render(plant, layers, &Shading::Light, &lit)?;
+        let traced = render(plant, layers, &Shading::Traced, &paths)?;
+        let changed = difference(&traced, &model)?;
+        let caption = format!("model less paths: {changed}");
+        panels.push(Panel::new(format!("model, {sun}"), model));
+        panels.push(Panel::new(format!("{} paths per pixel", paths.samples), traced));
+        panels.push(Panel::new(caption, changed.picture));
+    }
+    Ok(contact_sheet(&panels, &[title.into()], 3))
 }
 
 /// Two plants side by side and what differs, under their names.

@@ -48,7 +48,7 @@ pub fn swaying(
     // One camera for all, or the plant would stand still and the world sway.
     let points: Vec<Vec3> = scenes.iter().flat_map(|scene| scene.fitted.iter().copied()).collect();
     let draw = |scene: &Scene| render::draw(scene, Camera::fit(points.iter().copied(), params), shading, params);
-    Ok(scenes.iter().map(draw).collect())
+    scenes.iter().map(draw).collect()
 }
 
 /// A sheet: weights of the levels, phases, and the plant in wind at several times.

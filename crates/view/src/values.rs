@@ -89,6 +89,27 @@ pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Resu
     }
 }
 
+/// A column of the leaves; none where nobody baked it.
+pub(crate) fn leaf_column<'a>(
+    plant: &Plant,
+    layers: &[&'a Layer],
+    class: &str,
+    property: &str,
+) -> Result<Option<&'a [f32]>, ViewError> {
+    let mut columns = layers.iter().flat_map(|layer| &layer.columns);
+    let Some((_, array)) = columns.find(|(key, _)| key.class == class && key.property == property) else {
+        return Ok(None);
+    };
+    let fits = array.rows() == plant.leaves().len();
+    array.as_f32().filter(|_| fits).map(Some).ok_or_else(|| ViewError::Shape {
+        name: property.into(),
+        part: class.into(),
+        found: array.rows(),
+        width: array.width(),
+        expected: format!("{} rows of floats, one per leaf", plant.leaves().len()),
+    })
+}
+
 /// Asked for in place of a channel: what each part was taken for.
 const ROLE: &str = "role";
 

@@ -9,6 +9,7 @@ mod expected;
 mod fft;
 mod gates;
 pub mod light;
+mod light_model;
 mod oracle;
 mod programs;
 mod reading;
@@ -92,6 +93,10 @@ const MEASURES: &[Measure] = &[
     ("light-200k-tree-seconds", light::medium),
     ("light-1m-tree-seconds", light::large),
     ("light-1m-tree-memory", light::large_memory),
+    ("light-model-bias", light_model::bias),
+    ("light-model-low", light_model::low),
+    ("light-model-low-harmonics", light_model::low_by_harmonics),
+    ("light-model-paper-bias", light_model::paper_bias),
     ("noise-slope", wind::noise_slope),
     ("noise-seam", wind::noise_seam),
     ("noise-correlation", wind::noise_correlation),

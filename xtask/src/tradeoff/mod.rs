@@ -5,6 +5,7 @@ mod engines;
 pub mod judged;
 mod leaf_pictures;
 pub mod light;
+pub mod light_model;
 mod normals;
 mod occluders;
 mod pictures;
@@ -31,9 +32,12 @@ pub fn run(name: Option<&str>) -> Result<()> {
     match name {
         Some("density") => density(),
         Some("wind") => wind::run(),
-        Some("light") => engines::run(),
+        Some("light") => engines::run().and_then(|()| light_model::run()),
+        Some("light-model") => light_model::run(),
         Some("translucency") => translucency::run(),
-        _ => bail!("there are comparisons of density, wind, light and translucency: cargo xtask tradeoff density"),
+        _ => bail!(
+            "there are comparisons of density, wind, light, light-model and translucency: cargo xtask tradeoff density"
+        ),
     }
 }
 

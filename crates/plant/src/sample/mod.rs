@@ -3,6 +3,7 @@
 //! (integer hashes, low-discrepancy points, libm).
 
 mod build;
+mod crowns;
 mod foliage;
 mod hard;
 mod hierarchy;
@@ -13,6 +14,7 @@ mod textures;
 mod tree;
 mod tubes;
 
+pub use crowns::{Quad, crowns, quads};
 pub use hard::{FUSED_TREES, HARD_TREES, HardTree, fused_tree, hard_tree, wood_for_speed};
 pub use odd::odd_plants;
 pub use tree::Recipe;

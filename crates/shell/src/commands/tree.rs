@@ -191,7 +191,7 @@ fn view(command: Command, fields: &Fields) -> Command {
         .about("Draws a tree as it is lit, or a channel in false colors")
         .arg(flags::inputs("FILE", "OBJ, glTF or GLB file, or a .layer of light through a leaf; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .png, or - for standard output").required(true))
-        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient"))
+        .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient; with --look light two suns by model and by paths"))
         .arg(flags::path("against", "FILE", "Draws FILE beside it, and what differs").conflicts_with("sheet"))
         .arg(
             Arg::new("turntable")

@@ -15,7 +15,7 @@ use foliar_bake::Layer;
 use foliar_carrier::OutputFile;
 use foliar_schema::names;
 use foliar_structure::branches;
-use foliar_view::{Standing, ViewError, ViewParams};
+use foliar_view::{Look, Standing, ViewError, ViewParams};
 use std::path::{Path, PathBuf};
 
 /// Pictures of a turntable shown in a second.
@@ -128,7 +128,9 @@ fn all_layers(loaded: &Loaded) -> Vec<&Layer> {
 
 fn refuse(error: &ViewError, input: &Path) -> Failure {
     match error {
-        ViewError::Range(_) | ViewError::NotFinite | ViewError::Channel { .. } => Failure::Usage(error.to_string()),
+        ViewError::Range(_) | ViewError::NotFinite | ViewError::Neighbors | ViewError::Channel { .. } => {
+            Failure::Usage(error.to_string())
+        }
         _ => Failure::Input(format!("{}: {error}", input.display())),
     }
 }
@@ -155,6 +157,9 @@ impl Tree<'_> {
         }
         let title = self.input.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let picture = match wanted {
+            Wanted::Sheet if matches!(params.look, Look::Light | Look::Traced) => {
+                foliar_view::light_sheet(plant, layers, &title, params)
+            }
             Wanted::Sheet => foliar_view::bake_sheet(plant, layers, &title, params),
             Wanted::SwaySheet => foliar_view::sway_sheet(plant, layers, &title, params),
             _ => foliar_view::render_among(plant, layers, self.around, &shading, params),

@@ -2,6 +2,7 @@
 
 mod laws;
 mod leaf;
+mod leaf_light;
 mod light;
 mod lines;
 
