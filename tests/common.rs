@@ -10,6 +10,7 @@ pub const FOLIAR: &str = env!("CARGO_BIN_EXE_foliar");
 pub const IMPORT: &str = env!("CARGO_BIN_EXE_foliar-import");
 pub const DENSITY: &str = env!("CARGO_BIN_EXE_foliar-density");
 pub const WIND: &str = env!("CARGO_BIN_EXE_foliar-wind");
+pub const TRANSLUCENCY: &str = env!("CARGO_BIN_EXE_foliar-translucency");
 pub const NOISE: &str = env!("CARGO_BIN_EXE_foliar-noise");
 pub const VIEW: &str = env!("CARGO_BIN_EXE_foliar-view");
 pub const PACK: &str = env!("CARGO_BIN_EXE_foliar-pack");

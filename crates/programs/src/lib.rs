@@ -3,7 +3,8 @@
 use foliar_bake::Baker;
 
 /// Every baker of this version: rooms in the order in which files list them, then those of libraries.
-pub const BAKERS: &[&dyn Baker] = &[&foliar_wind::Wind, &foliar_density::Density, &foliar_wind::Noise];
+pub const BAKERS: &[&dyn Baker] = 
+    &[&foliar_wind::Wind, &foliar_density::Density, &foliar_translucency::Translucency, &foliar_wind::Noise];
 
 #[cfg(test)]
 mod tests {

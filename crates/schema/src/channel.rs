@@ -74,10 +74,16 @@ pub struct Column {
 }
 
 /// Steps and rooms in the order in which files list them.
-pub const ROOMS: &[&str] = &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_WIND, names::ROOM_DENSITY];
+pub const ROOMS: &[&str] = &[
+    names::ROOM_STRUCTURE,
+    names::ROOM_BRANCHES,
+    names::ROOM_WIND,
+    names::ROOM_DENSITY,
+    names::ROOM_TRANSLUCENCY,
+];
 
 /// Rooms that the plan names and this version has not.
-pub const LATER_ROOMS: &[&str] = &["light", "occlusion", "translucency", "fall", "leafscan"];
+pub const LATER_ROOMS: &[&str] = &["light", "occlusion", "fall", "leafscan"];
 
 /// Largest id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;

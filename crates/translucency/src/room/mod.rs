@@ -5,7 +5,7 @@ mod normalize;
 mod params;
 mod sheet;
 
-pub use params::{AngularCurve, Bands, LeafKind, Mirror, NormalFrame, NormalY, Normalize, Params, Side, Sides};
+pub use params::{AngularCurve, Bands, Exr, LeafKind, Mirror, NormalFrame, NormalY, Normalize, Params, Side, Sides};
 
 use crate::map::{LeafMap, Tables, coefficient_map, reference};
 use foliar_bake::{BakeError, Baked, Baker, Facts, FloatRaster, Inputs, Needs, Progress, Requirement, Rung};

@@ -39,10 +39,13 @@ fn diffuse(c: &[f32], tables: &Tables) -> f32 {
     ((c[0] + c[1] + c[2]) / SQRT_3 * bend).max(0.0)
 }
 
+/// Least mean that a texel of the leaf stores: 0 says that there is none. The smallest half float of full precision.
+const LEAST_STORED: f32 = 6.103_515_6e-5;
+
 /// Coefficients and the answer to diffuse light, four numbers a texel; nothing where there is no leaf.
 pub fn with_mean(map: &LeafMap, coefficients: &[f32], tables: &Tables) -> Vec<f32> {
     let texel = |(c, d): (&[f32], &f32)| {
-        if *d > 0.0 { [c[0], c[1], c[2], diffuse(c, tables)] } else { [0.0; 4] }
+        if *d > 0.0 { [c[0], c[1], c[2], diffuse(c, tables).max(LEAST_STORED)] } else { [0.0; 4] }
     };
     coefficients.chunks_exact(3).zip(&map.thickness_mm).flat_map(texel).collect()
 }
