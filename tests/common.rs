@@ -11,6 +11,7 @@ pub const IMPORT: &str = env!("CARGO_BIN_EXE_foliar-import");
 pub const DENSITY: &str = env!("CARGO_BIN_EXE_foliar-density");
 pub const WIND: &str = env!("CARGO_BIN_EXE_foliar-wind");
 pub const LIGHT: &str = env!("CARGO_BIN_EXE_foliar-light");
+pub const TRANSLUCENCY: &str = env!("CARGO_BIN_EXE_foliar-translucency");
 pub const NOISE: &str = env!("CARGO_BIN_EXE_foliar-noise");
 pub const LEAFSCAN: &str = env!("CARGO_BIN_EXE_foliar-leafscan");
 pub const VIEW: &str = env!("CARGO_BIN_EXE_foliar-view");

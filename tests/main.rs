@@ -26,4 +26,6 @@ mod pack;
 mod plants;
 mod streams;
 mod surface;
+mod translucency;
+mod translucency_bad;
 mod view;

@@ -33,8 +33,10 @@ pub struct Layer {
     pub attributes: BTreeMap<AttributeKey, Array>,
     /// Values per table row.
     pub columns: BTreeMap<ColumnKey, Array>,
-    /// Rasters by name; none of them is part of a glTF yet.
+    /// Rasters by name; those of one leaf material among several are named `SHEET/NAME`.
     pub rasters: BTreeMap<String, FloatRaster>,
+    /// Pictures that are passed on as they came, PNG or JPEG bytes, named like rasters.
+    pub pictures: BTreeMap<String, Vec<u8>>,
     /// Role of each primitive; only the layer of `structure` has them.
     pub roles: BTreeMap<Place, Role>,
 }
@@ -81,6 +83,12 @@ impl Layer {
             hasher.update(&(header.len() as u64).to_le_bytes());
             hasher.update(header.as_bytes());
             hasher.update(bytemuck::cast_slice(&raster.data));
+        }
+        for (name, picture) in &self.pictures {
+            let header = format!("picture/{name}[{}]", picture.len());
+            hasher.update(&(header.len() as u64).to_le_bytes());
+            hasher.update(header.as_bytes());
+            hasher.update(picture);
         }
         hasher.finalize().to_hex().to_string()
     }

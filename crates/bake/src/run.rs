@@ -2,7 +2,7 @@
 //! the spot (own room, in range).
 
 use crate::{Array, BakeError, Baked, Baker, Inputs, Layer, Progress};
-use foliar_schema::{CHANNELS, COLUMNS, Channel, RASTERS, Record, check_ranges};
+use foliar_schema::{CHANNELS, COLUMNS, Channel, RASTERS, Record, check_ranges, names};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -83,7 +83,7 @@ pub fn run(
 fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec<foliar_schema::Finding>) {
     let mut writes: Vec<String> = baked.attributes.keys().map(|k| k.name.clone()).collect();
     writes.extend(baked.columns.keys().map(|k| format!("{}/{}", k.class, k.property)));
-    writes.extend(baked.rasters.keys().map(|name| format!("raster/{name}")));
+    writes.extend(baked.rasters.keys().map(|name| format!("{}{name}", names::WRITES_RASTER)));
     writes.sort();
     writes.dedup();
     let record = Record {
@@ -98,7 +98,7 @@ fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec
         more: Map::new(),
     };
     let Baked { attributes, columns, rasters, findings, .. } = baked;
-    (Layer { record, attributes, columns, rasters, roles: BTreeMap::new() }, findings)
+    (Layer { record, attributes, columns, rasters, ..Layer::default() }, findings)
 }
 
 fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {

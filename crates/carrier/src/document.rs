@@ -4,6 +4,7 @@ use crate::{CarrierError, Selection, output};
 use foliar_plant::Place;
 use serde_json::Value;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A glTF document. Everything that foliar does not know stays in `json` as it was read.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,7 +17,31 @@ pub struct Document {
     pub folder: Option<PathBuf>,
     /// What of it is baked; a master remembers it.
     pub selection: Selection,
+    /// Files that belong beside it, in the folder of its name.
+    pub sides: Vec<Side>,
 }
+
+/// A file that belongs beside a document.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Side {
+    /// Its name: what it is, and a hash of its bytes, so that an old file and a new one never share a name.
+    pub name: String,
+    /// Its bytes.
+    pub bytes: Arc<[u8]>,
+}
+
+impl Side {
+    /// A file that is named for what it holds.
+    pub(crate) fn new(what: &str, ending: &str, bytes: Vec<u8>) -> Side {
+        let plain = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '_' };
+        let what: String = what.chars().map(plain).collect();
+        let hash = blake3::hash(&bytes).to_hex();
+        Side { name: format!("{what}-{}.{ending}", &hash[..HASH_DIGITS]), bytes: bytes.into() }
+    }
+}
+
+/// Digits of a hash in the name of a side file.
+const HASH_DIGITS: usize = 12;
 
 /// No items: what a missing list reads as.
 const NONE: &[Value] = &[];

@@ -35,7 +35,11 @@ pub(crate) fn to_bytes(layer: &Layer) -> Result<Vec<u8>, CarrierError> {
     for (name, raster) in &layer.rasters {
         let shape = [raster.height, raster.width, raster.channels].map(|n| n as usize).to_vec();
         let view = TensorView::new(Dtype::F32, shape, bytemuck::cast_slice(&raster.data));
-        views.insert(format!("raster/{name}"), view.map_err(|e| fail(e.to_string()))?);
+        views.insert(format!("{}{name}", names::WRITES_RASTER), view.map_err(|e| fail(e.to_string()))?);
+    }
+    for (name, picture) in &layer.pictures {
+        let view = TensorView::new(Dtype::U8, vec![picture.len()], picture).map_err(|e| fail(e.to_string()))?;
+        views.insert(format!("{}{name}", names::WRITES_PICTURE), view);
     }
     let roles = layer.roles.iter().map(|(place, role)| (format!("{}/{}", place.mesh, place.primitive), *role));
     let header = Header { record: layer.record.clone(), roles: roles.collect() };
@@ -69,8 +73,12 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
     }
     for name in metadata.offset_keys() {
         let tensor = tensors.tensor(&name).map_err(|e| fail(&name, e.to_string()))?;
-        if let Some(name) = name.strip_prefix("raster/") {
+        if let Some(name) = name.strip_prefix(names::WRITES_RASTER) {
             layer.rasters.insert(name.into(), raster(&tensor).map_err(|problem| fail(name, problem))?);
+            continue;
+        }
+        if let Some(name) = name.strip_prefix(names::WRITES_PICTURE) {
+            layer.pictures.insert(name.into(), tensor.data().to_vec());
             continue;
         }
         let array = array(&tensor).map_err(|problem| fail(&name, problem))?;

@@ -7,6 +7,7 @@
 
 mod accessor;
 mod assemble;
+mod coefficients;
 mod container;
 mod document;
 pub mod edit;
@@ -17,6 +18,7 @@ pub mod images;
 mod instances;
 mod layer_file;
 mod lod;
+mod loose;
 mod materials;
 mod neutral;
 mod notes;
@@ -29,13 +31,14 @@ mod read;
 mod rebase;
 mod scene;
 pub mod second_reader;
+mod sides;
 pub mod survey;
 mod takeout;
 mod trees;
 mod triangles;
 mod uvs;
 
-pub use document::Document;
+pub use document::{Document, Side};
 pub use error::CarrierError;
 pub use hull::hull_document;
 pub use output::{Step, write_files_with};
@@ -178,6 +181,18 @@ pub fn is_unchanged(files: &[OutputFile]) -> bool {
     output::is_unchanged(files)
 }
 
+/// Side files that the file at `path` names now, in the folder of its name: asked before it is written over, they say
+/// what is to be removed after it.
+pub fn side_files(path: &Path) -> Vec<PathBuf> {
+    sides::named_by(path)
+}
+
+/// Removes side files that nothing names any more, and their folders where these are empty then. What cannot be removed
+/// is in nobody's way.
+pub fn remove_sides(files: &[PathBuf]) {
+    sides::remove(files);
+}
+
 /// [`encode`] and [`write_files`] in one.
 ///
 /// # Errors
@@ -206,6 +221,15 @@ pub fn encode_raster_between(
     path: &Path,
 ) -> Result<Vec<u8>, CarrierError> {
     raster_file::encode(raster, name, range, path)
+}
+
+/// The maps of a layer that belongs to no tree, as files beside `path`: `.exr` gives an EXR of each and the shown one as
+/// PNG, anything else a PNG of each; `STEM.json` says what the numbers mean. The last file is `path`.
+///
+/// # Errors
+/// [`CarrierError::Input`] for a layer without maps.
+pub fn encode_maps(layer: &Layer, path: &Path) -> Result<Vec<OutputFile>, CarrierError> {
+    loose::encode(layer, path)
 }
 
 /// A layer as a safetensors file: arrays by name, the record as canonical JSON in its metadata.

@@ -66,6 +66,12 @@ fn texture_finding(source: Source, image: usize, problem: &str) -> Finding {
     Finding::new(&code::IMPORT_TEXTURE, message).at(format!("/images/{image}")).in_file(source.file)
 }
 
+/// The name that links go by: its own, else its number in words.
+pub(crate) fn display_name(material: &Value, index: usize) -> String {
+    let own = material.get("name").and_then(Value::as_str).filter(|name| !name.is_empty());
+    own.map_or_else(|| format!("material {index}"), String::from)
+}
+
 pub(crate) fn material(value: &Value, base_color_raster: Option<u32>) -> Material {
     let factor = value.pointer("/pbrMetallicRoughness/baseColorFactor").and_then(Value::as_array);
     let mut base_color = [1.0; 4];

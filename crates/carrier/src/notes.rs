@@ -29,6 +29,8 @@ pub(crate) struct Notes {
 
 /// Lists at the root at whose end foliar adds.
 pub(crate) const LISTS: &[&str] = &["/accessors", "/bufferViews", "/buffers", "/extensionsUsed"];
+/// Lists at the root that only maps lengthen: noted where they did, with length 0 where there was none.
+pub(crate) const PICTURE_LISTS: &[&str] = &["/images", "/textures"];
 /// Member of the root extension: names that were taken, and what stands for them.
 pub(crate) const RENAMED: &str = "renamed";
 /// Member of the root extension: tables that EXT_structural_metadata cannot hold, by buffer view name.

@@ -1,6 +1,6 @@
 //! Writing: the bytes of .glb and .gltf, and files that appear complete or not at all.
 
-use crate::{CarrierError, Document, Outcome, OutputFile, container, pictures, rebase};
+use crate::{CarrierError, Document, Outcome, OutputFile, container, pictures, rebase, sides};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
@@ -27,10 +27,11 @@ pub(crate) fn encode(document: &Document, path: &Path) -> Result<Vec<OutputFile>
     let stays = is_gltf && !rebase::moves(document, path);
     let mut document = if stays { document.clone() } else { pictures::take_along(document, path)? };
     rebase::move_to(&mut document, path)?;
+    let mut files = sides::files(&mut document, path);
     if !is_gltf {
-        return Ok(vec![OutputFile { path: path.into(), bytes: glb(document, &path.display().to_string())? }]);
+        files.push(OutputFile { path: path.into(), bytes: glb(document, &path.display().to_string())? });
+        return Ok(files);
     }
-    let mut files = Vec::new();
     if !document.buffers.is_empty() {
         let bin = path.with_extension("bin");
         let name = bin.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -130,6 +131,18 @@ pub fn write_files_with(
     if changed.is_empty() {
         return Ok(Outcome::Unchanged);
     }
+    let made = sides::make_folders(&changed).map_err(|(path, source)| output_error(&path, source))?;
+    let outcome = put_in_place(changed, hook);
+    if outcome.is_err() {
+        sides::remove_folders(&made);
+    }
+    outcome
+}
+
+fn put_in_place(
+    changed: Vec<&OutputFile>,
+    hook: &mut dyn FnMut(&Path, Step) -> std::io::Result<()>,
+) -> Result<Outcome, CarrierError> {
     let mut ready = Vec::new();
     for file in changed {
         let made = stage(file, hook).map_err(|source| output_error(&file.path, source))?;

@@ -8,6 +8,7 @@ use exr::prelude::{
 };
 use foliar_bake::FloatRaster;
 use foliar_schema::raster;
+use half::f16;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Cursor;
@@ -27,7 +28,7 @@ pub(crate) fn encode(
         return Err(fail(format!("{} numbers for {} channels", raster.data.len(), raster.channels)));
     }
     match path.extension() {
-        Some(ending) if ending.eq_ignore_ascii_case("exr") => exr_bytes(raster).map_err(|e| fail(e.to_string())),
+        Some(ending) if ending.eq_ignore_ascii_case("exr") => exr_bytes(raster, false).map_err(|e| fail(e.to_string())),
         _ => png_bytes(raster, range.unwrap_or_else(|| declared(name))).map_err(|e| fail(e.to_string())),
     }
 }
@@ -55,11 +56,16 @@ fn png_bytes(floats: &FloatRaster, (min, max): (f64, f64)) -> Result<Vec<u8>, im
     Ok(bytes)
 }
 
-fn exr_bytes(raster: &FloatRaster) -> exr::error::Result<Vec<u8>> {
+/// EXR bytes of a raster, of 16-bit floats where `half`.
+pub(crate) fn exr_bytes(raster: &FloatRaster, half: bool) -> exr::error::Result<Vec<u8>> {
     let names: &[&str] = if raster.channels == 1 { &["Y"] } else { &["R", "G", "B", "A"] };
     let count = raster.channels as usize;
-    let of_channel = |channel: usize| raster.data.iter().skip(channel).step_by(count).copied().collect();
-    let channels = (0..count).map(|i| AnyChannel::new(names[i], FlatSamples::F32(of_channel(i)))).collect();
+    let of_channel = |channel: usize| raster.data.iter().skip(channel).step_by(count).copied();
+    let samples = |channel: usize| match half {
+        true => FlatSamples::F16(of_channel(channel).map(f16::from_f32).collect()),
+        false => FlatSamples::F32(of_channel(channel).collect()),
+    };
+    let channels = (0..count).map(|i| AnyChannel::new(names[i], samples(i))).collect();
     let encoding =
         Encoding { compression: Compression::ZIP16, line_order: LineOrder::Increasing, ..Encoding::UNCOMPRESSED };
     let size = (raster.width as usize, raster.height as usize);

@@ -20,8 +20,9 @@ struct Opened {
 /// Reads an asset from bytes.
 pub(crate) fn asset(bytes: &[u8], name: &str, folder: &Path, import: &Import) -> Result<Asset, CarrierError> {
     let Opened { document, own_ids, mut findings, mut files, source } = open(bytes, name, folder, import)?;
-    let Taken { mut document, layers, findings: taken } = takeout::take_out(document, name)?;
+    let Taken { mut document, layers, findings: taken, files: sides } = takeout::take_out(document, name)?;
     findings.extend(taken);
+    files.extend(sides);
     document.selection = chosen(&document, import);
     if import.expand_instances {
         instances::expand(&mut document, name)?;
@@ -37,7 +38,7 @@ pub(crate) fn asset(bytes: &[u8], name: &str, folder: &Path, import: &Import) ->
 
 /// What the layers of a master say of its base: a finding for each that was baked from another.
 pub(crate) fn stale_records(document: Document, name: &str, import: &Import) -> Result<Vec<Finding>, CarrierError> {
-    let Taken { mut document, layers, mut findings } = takeout::take_out(document, name)?;
+    let Taken { mut document, layers, mut findings, .. } = takeout::take_out(document, name)?;
     document.selection = chosen(&document, import);
     let selection = &document.selection;
     let extraction = Extraction { source: Source { document: &document, file: name }, selection, import, ids: None };

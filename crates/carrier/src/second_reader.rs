@@ -2,6 +2,7 @@
 //! by the glTF specification and the contract alone, and says what does not hold. Tests run it over
 //! every file that they write, since the Khronos validator cannot look inside the extensions.
 
+mod maps;
 mod packed;
 mod tables;
 
@@ -34,8 +35,22 @@ const UNIT_TOLERANCE: f64 = 2e-6;
 /// What does not hold, with its place.
 pub fn verify_file(path: &Path) -> Result<Summary, String> {
     let bytes = std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let verified = if bytes.starts_with(b"glTF") { verify(&bytes) } else { verify_json(&bytes, path) };
+    let is_glb = bytes.starts_with(b"glTF");
+    let verified = if is_glb { verify(&bytes) } else { verify_json(&bytes, path) };
+    let verified = verified.and_then(|summary| verify_sides(&bytes, is_glb, path).map(|()| summary));
     verified.map_err(|problem| format!("{}: {problem}", path.display()))
+}
+
+/// What lies beside a file.
+fn verify_sides(bytes: &[u8], is_glb: bool, path: &Path) -> Result<(), String> {
+    let length = bytes.get(12..16).map_or(0, |b| b.iter().rev().fold(0, |sum, b| sum * 256 + usize::from(*b)));
+    let (json, bin) = match is_glb {
+        true => (bytes.get(20..20 + length).unwrap_or_default(), bytes.get(28 + length..).unwrap_or_default()),
+        false => (bytes, &[][..]),
+    };
+    let json: Value = serde_json::from_slice(json).map_err(|e| e.to_string())?;
+    // A .gltf has its pictures in another file: what is in them was looked at already.
+    if is_glb { Master { json: &json, bin }.sides(path) } else { Ok(()) }
 }
 
 fn verify_json(bytes: &[u8], path: &Path) -> Result<Summary, String> {
@@ -169,6 +184,7 @@ impl Master<'_> {
             found.extend(coded(&code::CONTRACT_CHANNEL, same).map_err(|p| p.at(&format!("/meshes/{m}"))).err());
             channels.extend(sets.into_iter().flatten());
         }
+        found.extend(self.maps(root, &writes));
         // A primitive that does not hold says so itself; what it carries is not known.
         found.extend(records(&writes, &channels).into_iter().filter(|_| is_whole).filter_map(Result::err));
         summary

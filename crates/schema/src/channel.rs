@@ -55,11 +55,17 @@ pub struct Channel {
 }
 
 /// Steps and rooms in the order in which files list them.
-pub const ROOMS: &[&str] =
-    &[names::ROOM_STRUCTURE, names::ROOM_BRANCHES, names::ROOM_WIND, names::ROOM_LIGHT, names::ROOM_DENSITY];
+pub const ROOMS: &[&str] = &[
+    names::ROOM_STRUCTURE,
+    names::ROOM_BRANCHES,
+    names::ROOM_WIND,
+    names::ROOM_LIGHT,
+    names::ROOM_DENSITY,
+    names::ROOM_TRANSLUCENCY,
+];
 
 /// Rooms that the plan names and this version has not.
-pub const LATER_ROOMS: &[&str] = &["occlusion", "translucency", "fall", "leafscan"];
+pub const LATER_ROOMS: &[&str] = &["occlusion", "fall"];
 
 /// Largest id that a float attribute holds exactly.
 const MAX_ID: f32 = 16_777_216.0;

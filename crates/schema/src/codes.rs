@@ -83,9 +83,12 @@ codes! {
     LOST_ROLE = "LOST-ROLE", Warning, "A tool dropped the roles of primitives: wood and leaves are not told apart any more.";
     LOST_TABLE = "LOST-TABLE", Error, "A tool dropped a property table: facts about leaves or branches are gone.";
     MAP_BITS = "MAP-BITS", Warning, "A map has so few bits that its steps show: give 16 bits or floats.";
+    MAP_COLOR = "MAP-COLOR", Warning, "A map of numbers is tagged as colors, or was stored with loss: its numbers were taken as they are; save it linear, as PNG without profile, TIFF or EXR.";
     MAP_ESTIMATED = "MAP-ESTIMATED", Note, "A map was estimated from a photograph, not measured: take it as an artist's guess.";
     MAP_NORMALS = "MAP-NORMALS", Warning, "Normals of no length were taken for straight ones: is it a normal map?";
+    MAP_STEEP = "MAP-STEEP", Note, "Thickness rises steeper than 1:1: light leaves through the wall there, which the model does not know.";
     MAP_THIN = "MAP-THIN", Note, "Texels of a leaf that are thinner than anything grows were taken for the least thickness.";
+    MAP_UNUSED = "MAP-UNUSED", Warning, "A map was given for a material that no leaf has: correct the name, or take it out.";
     MATERIAL_CULLED = "MATERIAL-CULLED", Warning, "A leaf material is seen from one side only, and its leaves have no back: half of them vanish; set doubleSided.";
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";
     NEIGHBOR_COINCIDES = "NEIGHBOR-COINCIDES", Warning, "A neighbor is the plant itself, or another neighbor, at the same place: its foliage counts twice; move it or take it out.";

@@ -20,7 +20,7 @@ pub use column::{COLUMNS, Column, column};
 pub use config::{
     Ambient, Budget, Camera, Check, Engine, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
 };
-pub use extension::{CONTRACT, FoliageExtension, PrimitiveExtension};
+pub use extension::{CONTRACT, ColorLink, FoliageExtension, MapLink, PrimitiveExtension, SheetLinks};
 pub use finding::{Finding, Severity};
 pub use ranges::{RangeError, check_ranges};
 pub use raster::{RASTERS, RasterInfo, raster};

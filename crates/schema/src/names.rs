@@ -71,7 +71,7 @@ pub const ROOM_NOISE: &str = "noise";
 /// Raster of wind noise, two channels (Kusternig07 section 5).
 pub const RASTER_NOISE: &str = "noise";
 
-/// The room of light through leaves (Kusternig07 section 3.5): lives on maps, no part of a tree yet.
+/// The room of light through leaves (Kusternig07 section 3.5): lives on maps, of one leaf material each.
 pub const ROOM_TRANSLUCENCY: &str = "translucency";
 /// Raster shown on the front of a leaf: three coefficients and the mean over directions; green or the one wavelength.
 pub const RASTER_TRANSLUCENCY_FRONT: &str = "translucencyFront";
@@ -95,6 +95,21 @@ pub const MAP_NORMAL_BACK: &str = "normal-back";
 pub const MAP_HEIGHT_FRONT: &str = "height-front";
 /// Map of the back's relief, outward from the back.
 pub const MAP_HEIGHT_BACK: &str = "height-back";
+
+/// Photograph of a leaf against the light, passed on as it came.
+pub const MAP_BACKLIT: &str = "backlit";
+/// Color of the light that comes through, the picture of a layer that is passed on as it came.
+pub const PICTURE_COLOR: &str = "color";
+/// Member of a translucency record's facts: what was made for each set of maps, by name.
+pub const FACT_SHEETS: &str = "sheets";
+/// In a record's `writes`, what stands before the name of a raster.
+pub const WRITES_RASTER: &str = "raster/";
+/// In a record's `writes`, what stands before the name of a picture that was passed on.
+pub const WRITES_PICTURE: &str = "picture/";
+/// Extension of materials that let light through (Khronos).
+pub const DIFFUSE_TRANSMISSION: &str = "KHR_materials_diffuse_transmission";
+/// Ending of the folder beside a file where its side files lie: `tree.foliar/` beside `tree.glb`.
+pub const SIDE_ENDING: &str = "foliar";
 
 /// Key of the record in the metadata of a layer file (safetensors).
 pub const LAYER_METADATA_KEY: &str = "foliar";

@@ -5,8 +5,9 @@ use crate::console::Console;
 use crate::gather::Sources;
 use crate::limbs::{self, Limbs};
 use crate::load::{Loaded, load};
+use crate::maps::{self, Sheet};
 use crate::neighbors::{self, Neighbors};
-use crate::options::{Mode, Options};
+use crate::options::{Mode, Options, is_dash};
 use crate::outputs::{self, Job};
 use crate::plan::{self, Row};
 use crate::progress::Bar;
@@ -51,7 +52,9 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
     }
     let recorded: Vec<String> = loaded.layers.iter().map(|layer| layer.record.room.clone()).collect();
     let only = if baking.again { Some(recorded.as_slice()) } else { baking.only };
-    let (rows, limbs) = limbs::plan(baking, &mut loaded, only, report)?;
+    let entries = maps::named(baking.sources.fields, &mut loaded.settings, &job.input)?;
+    let (mut rows, limbs) = limbs::plan(baking, &mut loaded, only, report)?;
+    let sheets = maps::settle(baking, &loaded, &job.input, &mut rows, &entries, report)?;
     report.plan(&rows, limbs.as_ref());
     let neighbors = neighbors::load(baking, &job.input, &loaded, &rows, &stands, report)?;
     report.text = asked(baking, &loaded, &rows, limbs.as_ref());
@@ -64,7 +67,11 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
         report.set("output", path.display().to_string());
     }
     if let Some(output) = &job.output {
-        let rooms = bake_rooms(baking, &loaded, limbs.as_ref(), &neighbors, &rows, report)?;
+        let around = (&neighbors, &sheets);
+        let mut rooms = bake_rooms(baking, &loaded, limbs.as_ref(), around, &rows, report)?;
+        if is_dash(output) {
+            rooms.iter_mut().for_each(|room| maps::embed_all(&mut room.layer));
+        }
         let made = Made { branches: limbs.map(|limbs| limbs.layer), rooms };
         files.extend(finish(baking, &loaded, &rows, &made, output, report)?);
     }
@@ -86,13 +93,13 @@ fn bake_rooms(
     baking: &Baking,
     loaded: &Loaded,
     limbs: Option<&Limbs>,
-    neighbors: &Neighbors,
+    around: (&Neighbors, &BTreeMap<String, Vec<Sheet>>),
     rows: &[Row],
     report: &mut Report,
 ) -> Result<Vec<Room>, Failure> {
     let bar = Bar::new(baking.console.draws_progress());
     let cache = baking.options.cache.as_deref().map(Cache::new);
-    let rooms = rooms::bake(loaded, limbs, neighbors, rows, cache.as_ref(), &bar)?;
+    let rooms = rooms::bake(loaded, limbs, around, rows, cache.as_ref(), &bar)?;
     report.find(rooms.iter().flat_map(|room| room.findings.iter().cloned()));
     baking.console.log(&report.lap("rooms"));
     Ok(rooms)

@@ -75,6 +75,7 @@ fn field_arg(field: &Field) -> Arg {
 fn value_name(field: &Field) -> String {
     match (&field.kind, field.section.as_str()) {
         (Kind::List(_), "roles") => "PATTERN".into(),
+        (Kind::List(_), _) if field.map.is_some() => "[MATERIAL=]FILE".into(),
         (Kind::List(_), _) if field.dotted().ends_with(neighbors::ENDING) => "FILE@X,Y,Z[,YAW_DEG[,SCALE]]".into(),
         (Kind::Bool, _) => "true|false".into(),
         (Kind::Number, _) => "NUMBER".into(),

@@ -12,6 +12,7 @@ mod flags;
 mod gather;
 mod limbs;
 mod load;
+mod maps;
 mod neighbors;
 mod options;
 mod outputs;

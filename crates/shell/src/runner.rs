@@ -167,7 +167,10 @@ fn commit(options: &Options, console: &Console, files: &[OutputFile]) -> Result<
         return Ok(if same { Status::Unchanged } else { Status::Outdated });
     }
     make_folders(options)?;
+    let before: Vec<PathBuf> = files.iter().flat_map(|file| foliar_carrier::side_files(&file.path)).collect();
     let outcome = foliar_carrier::write_files(&files)?;
+    let old: Vec<PathBuf> = before.into_iter().filter(|old| files.iter().all(|file| file.path != *old)).collect();
+    foliar_carrier::remove_sides(&old);
     for file in &data {
         console.data(&file.bytes)?;
     }

@@ -25,6 +25,8 @@ pub(crate) enum Content {
     Column,
     /// Indices of triangles.
     Indices,
+    /// Bytes of a picture.
+    Picture,
 }
 
 impl Content {
@@ -36,7 +38,7 @@ impl Content {
                 view["target"] = ARRAY_BUFFER.into();
             }
             Content::Indices => view["target"] = ELEMENT_ARRAY_BUFFER.into(),
-            Content::Column => {}
+            Content::Column | Content::Picture => {}
         }
     }
 }

@@ -5,15 +5,18 @@ mod attributes;
 mod builder;
 mod check;
 mod tables;
+mod textures;
 
 use crate::notes::{KEPT, PROPERTIES, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
 pub(crate) use builder::{Builder, Content, primitive_mut};
 pub(crate) use check::vertices as vertices_of;
+pub(crate) use textures::{Encoded, encode_map, shown_of};
 use foliar_bake::Layer;
 use foliar_plant::Place;
-use foliar_schema::{CONTRACT, Finding, FoliageExtension, PrimitiveExtension, ROOMS, Record, Role, code, names};
+use foliar_schema::{CONTRACT, Finding, FoliageExtension, PrimitiveExtension, ROOMS, Record, Role, SheetLinks, code, names};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 
 /// Program and version that assembled the file.
 const GENERATOR: &str = concat!("foliar ", env!("CARGO_PKG_VERSION"));
@@ -37,7 +40,8 @@ pub(crate) fn assemble(base: &Document, layers: &[Layer]) -> Result<(Document, V
             write_role(&mut builder, *place, *role)?;
         }
     }
-    write_root(&mut builder, &layers)?;
+    let links = textures::write(&mut builder, &layers)?;
+    write_root(&mut builder, &layers, links)?;
     Ok(builder.finish())
 }
 
@@ -86,7 +90,11 @@ fn write_role(builder: &mut Builder, place: Place, role: Role) -> Result<(), Car
 }
 
 /// Root extension, its mirror in `asset.extras`, and `extensionsUsed`.
-fn write_root(builder: &mut Builder, layers: &[&Layer]) -> Result<(), CarrierError> {
+fn write_root(
+    builder: &mut Builder,
+    layers: &[&Layer],
+    translucency: BTreeMap<String, SheetLinks>,
+) -> Result<(), CarrierError> {
     builder.use_extension(names::EXTENSION)?;
     // Both containers are made before the notes are taken, which name them.
     builder.require_object(&["extensions"])?;
@@ -103,6 +111,7 @@ fn write_root(builder: &mut Builder, layers: &[&Layer]) -> Result<(), CarrierErr
         contract: CONTRACT,
         generator: GENERATOR.into(),
         records: layers.iter().map(|layer| written(&layer.record)).collect(),
+        translucency,
         base: builder.notes.to_map(),
         more,
     };

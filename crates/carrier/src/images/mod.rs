@@ -1,8 +1,11 @@
 //! Pictures: what format bytes really are, decoding to RGBA, encoding to PNG, and the maps that OBJ
 //! materials need (joined alpha, normals from heights).
 
+mod data;
 mod maps;
 
+pub use data::{DataMap, read_map};
+pub(crate) use data::read_exr;
 pub(crate) use maps::{alpha_joined, is_normal_map, normals_from_heights};
 
 use crate::CarrierError;
@@ -140,19 +143,30 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Raster, CarrierError> {
         let problem = format!("is JPEG cut short after {} bytes", bytes.len());
         return Err(CarrierError::input(name, "", problem, "copy or export the picture again"));
     }
-    let broken = |error: image::ImageError| {
-        CarrierError::input(name, "", format!("is damaged {}: {error}", format.name()), "export the picture again")
-    };
-    let (width, height) = ImageReader::with_format(Cursor::new(bytes), decoder).into_dimensions().map_err(broken)?;
+    let picture = open(bytes, decoder, name)?.decode().map_err(|e| broken(format, name, e))?;
+    let (width, height) = (picture.width(), picture.height());
+    let rgba = picture.into_rgba8().into_raw();
+    let has_alpha = rgba.chunks_exact(4).any(|p| p[3] < 255);
+    Ok(Raster { name: name.into(), width, height, rgba, has_alpha })
+}
+
+fn broken(format: Format, name: &str, error: image::ImageError) -> CarrierError {
+    CarrierError::input(name, "", format!("is damaged {}: {error}", format.name()), "export the picture again")
+}
+
+type Reader<'a> = ImageReader<Cursor<&'a [u8]>>;
+
+/// A reader that takes no more memory than the bytes can fill.
+fn open<'a>(bytes: &'a [u8], decoder: ImageFormat, name: &str) -> Result<Reader<'a>, CarrierError> {
+    let sized = ImageReader::with_format(Cursor::new(bytes), decoder).into_dimensions();
+    let (width, height) = sized.map_err(|e| broken(sniff(bytes), name, e))?;
     check_size(width, height, bytes.len(), name)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), decoder);
     let mut limits = Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(MOST_PIXELS_PER_SIDE), Some(MOST_PIXELS_PER_SIDE));
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    let rgba = reader.decode().map_err(broken)?.into_rgba8().into_raw();
-    let has_alpha = rgba.chunks_exact(4).any(|p| p[3] < 255);
-    Ok(Raster { name: name.into(), width, height, rgba, has_alpha })
+    Ok(reader)
 }
 
 /// Whether the end marker follows the last scan: the decoder fills up what is missing with gray.

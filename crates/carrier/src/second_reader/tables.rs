@@ -16,7 +16,8 @@ impl Master<'_> {
     pub fn tables(&self, root: &Value, writes: &BTreeSet<&str>, found: &mut Vec<Problem>) -> Vec<Table> {
         let metadata = &self.json["extensions"][names::STRUCTURAL_METADATA];
         let mut own: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-        for (class, property) in writes.iter().filter_map(|w| w.split_once('/')) {
+        let is_map = |w: &&&str| w.starts_with(names::WRITES_RASTER) || w.starts_with(names::WRITES_PICTURE);
+        for (class, property) in writes.iter().filter(|w| !is_map(w)).filter_map(|w| w.split_once('/')) {
             own.entry(class).or_default().insert(property);
         }
         let mut tables: Vec<Table> = Vec::new();

@@ -1,6 +1,7 @@
 //! The layers of a master: every array that a record says it wrote, found by name.
 
 use super::Contents;
+use super::maps::MapReader;
 use crate::accessor::{Source, type_width};
 use crate::document::{index_of, primitives};
 use crate::notes::{PROPERTIES, TABLES, id_names};
@@ -9,13 +10,16 @@ use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
 use foliar_plant::Place;
 use foliar_schema::{Finding, ROOMS, Record, Role, channel, code, names};
 use serde_json::{Map, Value, json};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// What reading layers needs.
 struct Reader<'a> {
     source: Source<'a>,
     contents: &'a Contents,
     roles: BTreeMap<Place, Role>,
+    files: &'a RefCell<Vec<PathBuf>>,
 }
 
 /// Reads the layers of all records, in their order.
@@ -24,10 +28,11 @@ pub(super) fn read(
     file: &str,
     contents: &Contents,
     findings: &mut Vec<Finding>,
+    files: &RefCell<Vec<PathBuf>>,
 ) -> Result<Vec<Layer>, CarrierError> {
     let source = Source { document, file };
     let roles = primitives(document).filter_map(|(place, p)| Some((place, role_of(p)?))).collect();
-    let reader = Reader { source, contents, roles };
+    let reader = Reader { source, contents, roles, files };
     contents.extension.records.iter().map(|record| reader.layer(record, findings)).collect()
 }
 
@@ -45,21 +50,23 @@ pub(super) fn feature<'a>(primitive: &'a Value, label: &str) -> Option<&'a Value
 }
 
 impl Reader<'_> {
+    fn maps(&self) -> MapReader<'_> {
+        MapReader { source: self.source, links: &self.contents.extension.translucency, files: self.files }
+    }
+
     fn layer(&self, record: &Record, findings: &mut Vec<Finding>) -> Result<Layer, CarrierError> {
         let known = ROOMS.contains(&record.room.as_str());
-        let mut layer = Layer {
-            rasters: BTreeMap::new(),
-            record: record.clone(),
-            attributes: BTreeMap::new(),
-            columns: BTreeMap::new(),
-            roles: BTreeMap::new(),
-        };
+        let mut layer = Layer { record: record.clone(), ..Layer::default() };
         if record.room == names::ROOM_STRUCTURE {
             layer.roles.clone_from(&self.roles);
         }
         let mut properties = Map::new();
         for name in &record.writes {
+            let map = name.strip_prefix(names::WRITES_RASTER);
+            let picture = name.strip_prefix(names::WRITES_PICTURE);
             let found = match name.split_once('/') {
+                _ if map.is_some() => self.maps().raster(map.unwrap_or_default(), &mut layer, findings)?,
+                _ if picture.is_some() => self.maps().picture(picture.unwrap_or_default(), &mut layer)?,
                 Some((class, property)) => self.column(class, property, &mut layer, &mut properties)?,
                 None => self.attribute(name, &mut layer)?,
             };

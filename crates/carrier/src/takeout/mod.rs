@@ -3,6 +3,7 @@
 //! survives tools that drop what they do not know.
 
 mod layers;
+mod maps;
 mod strip;
 
 use crate::notes::{Notes, RENAMED, root_pointer};
@@ -10,13 +11,17 @@ use crate::{CarrierError, Document};
 use foliar_bake::Layer;
 use foliar_schema::{CONTRACT, Finding, FoliageExtension, code, names};
 use serde_json::Value;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// A document without its layers, and the layers.
 pub(crate) struct Taken {
     pub document: Document,
     pub layers: Vec<Layer>,
     pub findings: Vec<Finding>,
+    /// Side files that were read.
+    pub files: Vec<PathBuf>,
 }
 
 /// What the root extension of a master says.
@@ -38,14 +43,14 @@ pub(crate) fn take_out(mut document: Document, file: &str) -> Result<Taken, Carr
     let root = document.json.get("extensions").and_then(|e| e.get(names::EXTENSION));
     let mirror = document.json.pointer("/asset/extras").and_then(|e| e.get(names::EXTENSION));
     let Some(value) = root.or(mirror).cloned() else {
-        return Ok(Taken { document, layers: Vec::new(), findings: Vec::new() });
+        return Ok(Taken { document, layers: Vec::new(), findings: Vec::new(), files: Vec::new() });
     };
     let place = if root.is_some() { root_pointer() } else { format!("/asset/extras/{}", names::EXTENSION) };
     let contract = value.get("contract").and_then(Value::as_u64);
     if contract.is_some_and(|c| c > u64::from(CONTRACT)) {
         let message = format!("contract {} is newer than {CONTRACT}: all of it stays as it is", contract.unwrap_or(0));
         let finding = Finding::new(&code::RECORD_UNKNOWN, message).at(place).in_file(file);
-        return Ok(Taken { document, layers: Vec::new(), findings: vec![finding] });
+        return Ok(Taken { document, layers: Vec::new(), findings: vec![finding], files: Vec::new() });
     }
     let extension: FoliageExtension = serde_json::from_value(value).map_err(|error| {
         CarrierError::input(file, place, format!("is damaged: {error}"), "bake again from the file it was made from")
@@ -54,9 +59,11 @@ pub(crate) fn take_out(mut document: Document, file: &str) -> Result<Taken, Carr
     let renamed = extension.more.get(RENAMED).cloned().and_then(|r| serde_json::from_value(r).ok()).unwrap_or_default();
     let contents = Contents { extension, notes, renamed };
     let mut findings = Vec::new();
-    let layers = layers::read(&document, file, &contents, &mut findings)?;
+    let files = RefCell::default();
+    let layers = layers::read(&document, file, &contents, &mut findings, &files)?;
     document.selection.scene = contents.notes.scene;
     document.selection.node.clone_from(&contents.notes.node);
     strip::strip(&mut document, &contents);
-    Ok(Taken { document, layers, findings })
+    document.sides.clear();
+    Ok(Taken { document, layers, findings, files: files.into_inner() })
 }

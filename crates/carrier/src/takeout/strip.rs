@@ -5,7 +5,7 @@ use super::Contents;
 use super::layers::feature;
 use crate::Document;
 use crate::document::index_of;
-use crate::notes::{KEPT, LISTS, id_names, metadata_pointer, root_pointer};
+use crate::notes::{KEPT, LISTS, PICTURE_LISTS, id_names, metadata_pointer, root_pointer};
 use crate::output::set_byte_lengths;
 use foliar_schema::names;
 use serde_json::{Map, Value};
@@ -24,6 +24,7 @@ pub(super) fn strip(document: &mut Document, contents: &Contents) {
         }
     }
     strip_metadata(&mut document.json, contents, &writes);
+    strip_materials(document);
     strip_root(&mut document.json);
     if exact {
         cut(document, contents);
@@ -72,7 +73,33 @@ fn is_as_assembled(document: &Document, contents: &Contents) -> bool {
         && length("/buffers").max(usize::from(!all_views.is_empty())) == document.list("buffers").len()
         && all_views[views..].iter().all(ours)
         && all_views[..views].iter().all(inside)
+        && PICTURE_LISTS.iter().all(|list| notes.lengths.get(*list).is_none_or(|n| rest_is_ours(document, list, *n)))
         && all_accessors[accessors..].iter().all(|a| index_of(a, "bufferView").is_some_and(|v| v >= views))
+}
+
+/// Whether every picture or texture from `length` on is foliar's.
+fn rest_is_ours(document: &Document, list: &str, length: usize) -> bool {
+    let items = document.list(list.trim_start_matches('/'));
+    items.get(length..).is_some_and(|rest| rest.iter().all(is_named_ours))
+}
+
+/// Whether an item bears a name of foliar.
+fn is_named_ours(item: &Value) -> bool {
+    item.get("name").and_then(Value::as_str).is_some_and(|name| name.starts_with(names::VIEW_PREFIX))
+}
+
+/// Takes diffuse transmission out of materials where its texture is foliar's.
+fn strip_materials(document: &mut Document) {
+    let ours: BTreeSet<usize> =
+        document.list("textures").iter().enumerate().filter(|(_, t)| is_named_ours(t)).map(|(index, _)| index).collect();
+    let materials = document.json.get_mut("materials").and_then(Value::as_array_mut);
+    for material in materials.into_iter().flatten() {
+        let Some(extensions) = material.get_mut("extensions").and_then(Value::as_object_mut) else { continue };
+        let texture = extensions.get(names::DIFFUSE_TRANSMISSION).and_then(|e| e.get("diffuseTransmissionTexture"));
+        if texture.and_then(|t| index_of(t, "index")).is_some_and(|index| ours.contains(&index)) {
+            extensions.shift_remove(names::DIFFUSE_TRANSMISSION);
+        }
+    }
 }
 
 /// Cuts lists and buffer back to what they were.
@@ -89,6 +116,16 @@ fn cut(document: &mut Document, contents: &Contents) {
             None => {
                 root.shift_remove(key);
             }
+        }
+    }
+    for pointer in PICTURE_LISTS {
+        let key = pointer.trim_start_matches('/');
+        let (Some(root), Some(&length)) = (document.json.as_object_mut(), contents.notes.lengths.get(*pointer)) else {
+            continue;
+        };
+        match root.get_mut(key).and_then(Value::as_array_mut) {
+            Some(list) if length > 0 => list.truncate(length),
+            _ => _ = root.shift_remove(key),
         }
     }
     match contents.notes.byte_length {
@@ -163,10 +200,16 @@ fn remove_if_empty(json: &mut Value, pointer: &str) {
     }
 }
 
+/// Whether what a record says it wrote is a map.
+fn is_map(written: &str) -> bool {
+    [names::WRITES_RASTER, names::WRITES_PICTURE].into_iter().any(|prefix| written.starts_with(prefix))
+}
+
 /// Removes foliar's classes and tables.
 fn strip_metadata(json: &mut Value, contents: &Contents, writes: &BTreeSet<&str>) {
+    let columns = writes.iter().filter(|w| !is_map(w));
     let classes: BTreeSet<&str> =
-        writes.iter().filter_map(|w| w.split_once('/')).map(|(class, _)| contents.name(class)).collect();
+        columns.filter_map(|w| w.split_once('/')).map(|(class, _)| contents.name(class)).collect();
     let ours = |class: Option<&Value>| class.and_then(Value::as_str).is_some_and(|c| classes.contains(c));
     let Some(metadata) = json.pointer_mut(&metadata_pointer("")).and_then(Value::as_object_mut) else {
         return;

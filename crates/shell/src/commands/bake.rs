@@ -1,7 +1,7 @@
 //! `foliar bake`, `foliar-import` and `foliar-ROOM`: one road with different rooms on it.
 
 use super::Call;
-use super::tree::room_sections;
+use super::tree::{lives_on_maps, room_sections};
 use crate::bake_one::{Baking, bake_one};
 use crate::flags::Direct;
 use crate::gather::Sources;
@@ -24,6 +24,11 @@ pub fn import(call: &Call) -> Result<(), Failure> {
 /// `foliar-ROOM`: one room.
 pub fn room(call: &Call, room: &str) -> Result<(), Failure> {
     let sections = room_sections(call.bakers, room);
+    let options = Options::from(call.matches);
+    let alone = call.bakers.iter().find(|baker| baker.room() == room && lives_on_maps(**baker));
+    if let Some(baker) = alone.filter(|_| options.inputs.is_empty()) {
+        return super::alone::run(call, *baker);
+    }
     bake(call, &Options::from(call.matches), Direct::Sections(&sections), Some(&[room.to_owned()]), false)
 }
 

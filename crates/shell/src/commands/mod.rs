@@ -1,5 +1,6 @@
 //! The commands: what each accepts and what it does, one file per command.
 
+mod alone;
 mod assemble;
 mod bake;
 mod check;

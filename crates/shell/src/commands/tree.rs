@@ -63,7 +63,9 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
         Program::Room(room) => {
             let own: Vec<&dyn Baker> = bakers.iter().copied().filter(|baker| baker.room() == room).collect();
             let command = command.about(format!("Bakes one room: {}", about(room)));
-            flags::with_surface(baking(command, fields, Direct::Sections(&room_sections(bakers, room))), &own)
+            let command =
+                flags::with_surface(baking(command, fields, Direct::Sections(&room_sections(bakers, room))), &own);
+            if own.iter().any(|baker| lives_on_maps(*baker)) { on_maps(command) } else { command }
         }
         Program::Library(room) if bakers.iter().any(|b| b.room() == *room && b.needs().scan) => {
             scan(command.about(format!("Bakes {}", about(room))), fields, room)
@@ -79,6 +81,25 @@ pub fn commands(program: &Program, bakers: &[&dyn Baker], fields: &Fields) -> Co
 pub fn room_sections<'a>(bakers: &[&dyn Baker], room: &'a str) -> Vec<&'a str> {
     let needs = bakers.iter().any(|baker| baker.room() == room && baker.needs().branches);
     [room].into_iter().chain(needs.then_some(names::ROOM_BRANCHES)).collect()
+}
+
+/// Whether a room needs maps and no tree: its program bakes them alone as well.
+pub fn lives_on_maps(baker: &dyn Baker) -> bool {
+    !baker.needs().maps.is_empty() && !baker.needs().plant
+}
+
+/// A program whose tree may be missing.
+fn on_maps(command: Command) -> Command {
+    command
+        .mut_arg("inputs", |arg| {
+            let help = "OBJ, glTF or GLB files that the maps go onto; - is standard input; none: the maps are baked alone";
+            arg.num_args(0..).required(false).help(help)
+        })
+        .mut_arg("output", |arg| {
+            let help = "Output: .glb, .gltf, .layer or - with a tree; without one .exr (with a PNG and a JSON beside it), .png, \
+                        .layer or -";
+            arg.help(help)
+        })
 }
 
 fn foliar(command: Command, bakers: &[&dyn Baker], fields: &Fields) -> Command {

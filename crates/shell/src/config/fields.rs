@@ -41,6 +41,8 @@ pub struct Field {
     pub schema: Value,
     /// Name of its flag, where that is not the field's (`x-flag` in the schema).
     pub own_flag: Option<String>,
+    /// Name of the map that its entries name files of (`x-map` in the schema).
+    pub map: Option<String>,
 }
 
 impl Field {
@@ -219,6 +221,7 @@ impl Walk<'_> {
             doc: doc.ok_or_else(|| self.refuse(path, "no doc comment"))?.into(),
             schema: target.clone(),
             own_flag: property["x-flag"].as_str().map(String::from),
+            map: property["x-map"].as_str().map(String::from),
         })
     }
 

@@ -1,7 +1,7 @@
 //! Configuration files: `foliar.toml` of the project, `tree.foliar.toml` of an asset. Each value
 //! keeps its line; paths in a file start from the file's folder.
 
-use super::{Fields, Origin, Settings, from_json};
+use super::{Field, Fields, Origin, Settings, from_json};
 use crate::{Failure, neighbors};
 use serde_json::Value;
 use std::io::ErrorKind;
@@ -84,18 +84,19 @@ impl Reader<'_> {
         let value = json(value).map_err(|e| self.failure(place, format!("{dotted} = {e}")))?;
         let value = from_json(field, &value).map_err(|e| self.failure(place, e))?;
         let origin = Origin::File(self.path.to_path_buf(), self.line(key));
-        settings.set(field, self.rebase(dotted, value), origin);
+        settings.set(field, self.rebase(field, dotted, value), origin);
         Ok(())
     }
 
     /// Paths in a file start from the file's folder.
-    fn rebase(&self, dotted: &str, value: Value) -> Value {
-        let Some((_, separator)) = PATHS.iter().find(|(name, _)| dotted.ends_with(name)) else { return value };
+    fn rebase(&self, field: &Field, dotted: &str, value: Value) -> Value {
+        let known = PATHS.iter().find(|(name, _)| dotted.ends_with(name)).map(|(_, separator)| *separator);
+        let Some(separator) = known.or_else(|| field.map.as_ref().map(|_| Some('='))) else { return value };
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let joined = |path: &str| folder.join(path).display().to_string();
         let entry = |text: &str| match separator {
             Some('@') => text.rsplit_once('@').map(|(file, place)| format!("{}@{place}", joined(file))),
-            Some(c) => text.split_once(*c).map(|(part, file)| format!("{part}={}", joined(file))),
+            Some(c) => text.split_once(c).map(|(part, file)| format!("{part}={}", joined(file))),
             None => None,
         };
         let entry = |text: &str| entry(text).unwrap_or_else(|| joined(text));

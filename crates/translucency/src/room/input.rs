@@ -104,6 +104,7 @@ impl Sheet {
         (self.range_mm, self.median_mm) = (range, median);
         if params.thickness_from == ThicknessFrom::Map {
             self.warn_of_steps(map, scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?);
+            self.warn_of_walls();
         }
         Ok(())
     }
@@ -145,7 +146,7 @@ impl Sheet {
             [linear(texel[0]), linear(texel[1]), linear(texel[2]), alpha]
         };
         let rgba: Vec<[f32; 4]> = map.raster.data.par_chunks_exact(channels).enumerate().map(texel).collect();
-        let usual = Preset::named(params.leaf.name()).map_or(0.2, |preset| preset.thickness_mm);
+        let usual = Preset::named(params.preset.name()).map_or(0.2, |preset| preset.thickness_mm);
         let look = Look { mean_mm: params.thickness_mean_mm.unwrap_or(usual), veins: params.veins };
         self.thickness_mm = thickness_from_photo(rgba.as_flattened(), self.width, &look);
         let message = format!(
@@ -155,6 +156,25 @@ impl Sheet {
         );
         self.findings.push(finding(&code::MAP_ESTIMATED, name, message));
         Ok(())
+    }
+
+    /// Where thickness rises so steeply that light leaves through the wall, which no kernel of a flat leaf knows.
+    fn warn_of_walls(&mut self) {
+        let at = |x: usize, y: usize| self.thickness_mm[y * self.width + x];
+        let rises = |a: f32, b: f32| a > 0.0 && b > 0.0 && f64::from((a - b).abs()) > self.texel_mm;
+        let wall = |x: usize, y: usize| {
+            (x + 1 < self.width && rises(at(x, y), at(x + 1, y)))
+                || (y + 1 < self.height && rises(at(x, y), at(x, y + 1)))
+        };
+        let rows = 0..self.height;
+        let walls: usize = rows.map(|y| (0..self.width).filter(|x| wall(*x, y)).count()).sum();
+        if walls > 0 {
+            let message = format!(
+                "at {walls} texels thickness rises steeper than 1:1: within .06 mm of such a wall light is off by 3 % \
+                 (510 nm) to 16 % (550 nm)"
+            );
+            self.findings.push(finding(&code::MAP_STEEP, names::MAP_THICKNESS, message));
+        }
     }
 
     /// What the bits of the thickness map cost.

@@ -6,7 +6,7 @@ mod params;
 mod sheet;
 
 pub use params::{
-    AngularCurve, Bands, LeafKind, Mirror, NormalFrame, NormalY, Normalize, Params, Side, Sides, ThicknessFrom,
+    AngularCurve, Bands, Exr, LeafKind, Mirror, NormalFrame, NormalY, Normalize, Params, Side, Sides, ThicknessFrom,
 };
 
 use crate::map::{LeafMap, Tables, coefficient_map, reference};

@@ -40,13 +40,16 @@ fn diffuse(c: &[f32], tables: &Tables) -> f32 {
     ((c[0] + c[1] + c[2]) / SQRT_3 * bend).max(0.0)
 }
 
+/// Least mean that a texel of the leaf stores: 0 says that there is none. The smallest half float of full precision.
+const LEAST_STORED: f32 = 6.103_515_6e-5;
+
 /// Coefficients and the answer to diffuse light, four numbers a texel; nothing where there is no leaf.
 pub fn with_mean(map: &LeafMap, coefficients: &[f32], tables: &Tables) -> Vec<f32> {
     let mut texels = vec![0.0; 4 * map.thickness_mm.len()];
     let leaf = texels.par_chunks_exact_mut(4).zip(coefficients.par_chunks_exact(3)).zip(&map.thickness_mm);
     leaf.filter(|(_, d)| **d > 0.0).for_each(|((texel, c), _)| {
         texel[..3].copy_from_slice(c);
-        texel[3] = diffuse(c, tables);
+        texel[3] = diffuse(c, tables).max(LEAST_STORED);
     });
     texels
 }

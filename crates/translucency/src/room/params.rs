@@ -139,6 +139,17 @@ pub enum ThicknessFrom {
     Photo,
 }
 
+/// Numbers of an EXR.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Exr {
+    /// 16 bits: right to .05 %.
+    #[default]
+    Half,
+    /// 32 bits.
+    Float,
+}
+
 /// Whether a measured reflectance holds the surface's mirror.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -154,6 +165,33 @@ pub enum Mirror {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Params {
+    /// Map of thickness, `FILE` or `MATERIAL=FILE`: white is `thickness_scale_mm`; floats are millimeters.
+    #[schemars(extend("x-map" = names::MAP_THICKNESS))]
+    pub thickness: Vec<String>,
+    /// Map of where the leaf is, `FILE` or `MATERIAL=FILE`; nothing given: the alpha of the thickness map or of the
+    /// material's own color, else wherever the thickness is above 0.
+    #[schemars(extend("x-map" = names::MAP_ALPHA))]
+    pub alpha: Vec<String>,
+    /// Normal map of the front, `FILE` or `MATERIAL=FILE`: light from there shows on the back.
+    #[schemars(extend("x-map" = names::MAP_NORMAL_FRONT))]
+    pub normal_front: Vec<String>,
+    /// Normal map of the back, `FILE` or `MATERIAL=FILE`: light from there shows on the front.
+    #[schemars(extend("x-map" = names::MAP_NORMAL_BACK))]
+    pub normal_back: Vec<String>,
+    /// Height map of the front in place of its normals, `FILE` or `MATERIAL=FILE`.
+    #[schemars(extend("x-map" = names::MAP_HEIGHT_FRONT))]
+    pub height_front: Vec<String>,
+    /// Height map of the back, outward from it, `FILE` or `MATERIAL=FILE`.
+    #[schemars(extend("x-map" = names::MAP_HEIGHT_BACK))]
+    pub height_back: Vec<String>,
+    /// Photograph of the leaf against the light, PNG or JPEG, `FILE` or `MATERIAL=FILE`: the color of what comes through,
+    /// passed on as it is. Without one the color is estimated from the tissue.
+    #[schemars(extend("x-map" = names::MAP_BACKLIT))]
+    pub backlit: Vec<String>,
+    /// Leaf materials that maps without a name belong to (`*leaf*`, case ignored); nothing given: the only one that there is.
+    pub material: Vec<String>,
+    /// What differs for one material, `MATERIAL:KEY=VALUE` each, KEY of this section: `Needle*:leaf_width_mm=2`.
+    pub for_material: Vec<String>,
     /// Width of the map on the leaf, mm; this or `texel_mm` must be given: light spreads in millimeters.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub leaf_width_mm: Option<f64>,
@@ -177,22 +215,22 @@ pub struct Params {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub height_scale_mm: Option<f64>,
     /// Kind of leaf.
-    pub leaf: LeafKind,
+    pub preset: LeafKind,
     /// Wavelength, nm: 510 as in the paper; a leaf's green peak is at 550.
     #[schemars(range(min = 450, max = 680))]
     pub wavelength_nm: f64,
     /// One wavelength or three.
     pub bands: Bands,
-    /// Absorption, 1/mm; nothing said: that of `leaf`.
+    /// Absorption, 1/mm; nothing said: that of `preset`.
     #[schemars(range(min = 0.0))]
     pub absorption: Option<f64>,
-    /// Reduced scattering, 1/mm; nothing said: that of `leaf`.
+    /// Reduced scattering, 1/mm; nothing said: that of `preset`.
     #[schemars(range(min = 0.0))]
     pub reduced_scattering: Option<f64>,
     /// Mean cosine of scattering.
     #[schemars(range(min = -0.95, max = 0.999))]
     pub anisotropy: f64,
-    /// Index of refraction; nothing said: that of `leaf`.
+    /// Index of refraction; nothing said: that of `preset`.
     #[schemars(range(min = 1.0, max = 4.0))]
     pub index: Option<f64>,
     /// Measured reflectance and transmittance, `R,T`, of a leaf as thick as the median of the map: absorption and scattering
@@ -224,11 +262,24 @@ pub struct Params {
     pub normal_frame: NormalFrame,
     /// Which way green points in normal maps.
     pub normal_y: NormalY,
+    /// Numbers of the EXR beside the file.
+    pub exr: Exr,
+    /// Whether every map goes into the file, in 8 bits, and none beside it.
+    pub embed_all: bool,
 }
 
 impl Default for Params {
     fn default() -> Self {
         Params {
+            thickness: Vec::new(),
+            alpha: Vec::new(),
+            normal_front: Vec::new(),
+            normal_back: Vec::new(),
+            height_front: Vec::new(),
+            height_back: Vec::new(),
+            backlit: Vec::new(),
+            material: Vec::new(),
+            for_material: Vec::new(),
             leaf_width_mm: None,
             texel_mm: None,
             thickness_scale_mm: None,
@@ -237,7 +288,7 @@ impl Default for Params {
             thickness_mean_mm: None,
             veins: Veins::default(),
             height_scale_mm: None,
-            leaf: LeafKind::default(),
+            preset: LeafKind::default(),
             wavelength_nm: 510.0,
             bands: Bands::default(),
             absorption: None,
@@ -257,6 +308,8 @@ impl Default for Params {
             sides: Sides::default(),
             normal_frame: NormalFrame::default(),
             normal_y: NormalY::default(),
+            exr: Exr::default(),
+            embed_all: false,
         }
     }
 }

@@ -34,7 +34,7 @@ pub fn recipes(params: &Params, sheet: &Sheet) -> Result<Vec<Band>, BakeError> {
     if bands.len() > 1 && (params.absorption.is_some() || params.fit_rt.is_some() || !params.layer.is_empty()) {
         return Err(refuse(
             "bands",
-            "rgb takes its tissue from `leaf`: absorption, fit_rt and layer say one wavelength",
+            "rgb takes its tissue from `preset`: absorption, fit_rt and layer say one wavelength",
         ));
     }
     let band = |&(wavelength_nm, suffix): &(f64, &'static str)| {
@@ -55,7 +55,7 @@ pub fn recipes(params: &Params, sheet: &Sheet) -> Result<Vec<Band>, BakeError> {
 }
 
 fn tissues(params: &Params, sheet: &Sheet, wavelength_nm: f64) -> Result<Vec<Tissue>, BakeError> {
-    let preset = Preset::named(params.leaf.name()).and_then(|preset| preset.medium(wavelength_nm));
+    let preset = Preset::named(params.preset.name()).and_then(|preset| preset.medium(wavelength_nm));
     let preset =
         preset.ok_or_else(|| refuse("wavelength_nm", format!("is {wavelength_nm}: must be from 450 to 680")))?;
     let index = params.index.unwrap_or(preset.index);

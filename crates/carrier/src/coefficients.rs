@@ -1,0 +1,263 @@
+//! Maps of coefficients as files hold them: filled beyond the leaf so that no mip bleeds over its rim, and in 8 bits with
+//! the scale and bias that cost least.
+
+use crate::{CarrierError, raster_file};
+use foliar_bake::FloatRaster;
+use foliar_schema::MapLink;
+use half::f16;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use rayon::prelude::*;
+
+/// Numbers of a texel: three coefficients, and the mean transmission, which is 0 off the leaf and nowhere on it.
+const CHANNELS: usize = 4;
+/// Bins in which the best range of 8 bits is looked for.
+const BINS: usize = 1024;
+/// Shares of the texels that a range may leave out at either end.
+const CUTS: [f64; 7] = [0.0, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3];
+const REPORT: &str = "report it: a fault of foliar";
+
+type Texel = [f32; CHANNELS];
+
+/// A map in 8 bits.
+pub(crate) struct Stored {
+    /// RGBA, alpha above 0 everywhere.
+    pub rgba: Vec<u8>,
+    /// What to make of the numbers, and what they cost; neither texture nor file named.
+    pub link: MapLink,
+}
+
+/// The numbers as an EXR of these bits gives them back: what follows from them follows from the file as well.
+pub(crate) fn rounded(raster: &FloatRaster, half: bool) -> FloatRaster {
+    let round = |v: &f32| if half { f16::from_f32(*v).to_f32() } else { *v };
+    FloatRaster { data: raster.data.par_iter().map(round).collect(), ..*raster }
+}
+
+/// One EXR: coefficients filled beyond the leaf, and the mean transmission, which says where the leaf is.
+pub(crate) fn exr(raster: &FloatRaster, filled: &[Texel], half: bool) -> Result<Vec<u8>, CarrierError> {
+    let own = raster.data.par_chunks_exact(CHANNELS);
+    let data = own.zip(filled).flat_map_iter(|(own, f)| [f[0], f[1], f[2], own[3]]).collect();
+    raster_file::exr_bytes(&FloatRaster { data, ..*raster }, half)
+        .map_err(|e| CarrierError::input("EXR", "", e.to_string(), REPORT))
+}
+
+/// PNG bytes of a map in 8 bits.
+pub(crate) fn png(stored: &Stored, width: u32, height: u32) -> Result<Vec<u8>, CarrierError> {
+    let mut bytes = Vec::new();
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
+        .write_image(&stored.rgba, width, height, ExtendedColorType::Rgba8)
+        .map_err(|e| CarrierError::input("PNG", "", e.to_string(), REPORT))?;
+    Ok(bytes)
+}
+
+/// One level of the pyramid; a texel without leaf has no mean.
+struct Level {
+    width: usize,
+    height: usize,
+    texels: Vec<Texel>,
+}
+
+fn is_leaf(texel: &Texel) -> bool {
+    texel[3] > 0.0
+}
+
+impl Level {
+    /// The mean of each square of four texels, over those that are leaf.
+    fn halved(&self) -> Level {
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let mut texels = vec![[0.0; CHANNELS]; width * height];
+        texels.par_chunks_exact_mut(width).enumerate().for_each(|(y, row)| {
+            for (x, texel) in row.iter_mut().enumerate() {
+                let mut count = 0.0f32;
+                for (x, y) in [(2 * x, 2 * y), (2 * x + 1, 2 * y), (2 * x, 2 * y + 1), (2 * x + 1, 2 * y + 1)] {
+                    let inside = x < self.width && y < self.height;
+                    if let Some(own) = inside.then(|| self.texels[y * self.width + x]).filter(is_leaf) {
+                        texel.iter_mut().zip(own).for_each(|(sum, v)| *sum += v);
+                        count += 1.0;
+                    }
+                }
+                if count > 1.0 {
+                    texel.iter_mut().for_each(|sum| *sum /= count);
+                }
+            }
+        });
+        Level { width, height, texels }
+    }
+
+    /// Fills what is no leaf from the next level.
+    fn fill(&mut self, above: &Level) {
+        let width = self.width;
+        self.texels.par_chunks_exact_mut(width).enumerate().for_each(|(y, row)| {
+            for (x, texel) in row.iter_mut().enumerate().filter(|(_, texel)| !is_leaf(texel)) {
+                *texel = above.texels[y / 2 * above.width + x / 2];
+            }
+        });
+    }
+}
+
+/// Every texel beyond the leaf gets the mean of the leaf around it, of the smallest square of the mip pyramid that holds
+/// any: so each texel of each mip is the mean of what is leaf below it, and of nothing else.
+pub(crate) fn filled(raster: &FloatRaster) -> Vec<Texel> {
+    let texels = raster.data.par_chunks_exact(CHANNELS).map(|t| [t[0], t[1], t[2], t[3]]).collect();
+    let mut levels = vec![Level { width: raster.width as usize, height: raster.height as usize, texels }];
+    while let Some(last) = levels.last().filter(|level| level.width * level.height > 1) {
+        let next = last.halved();
+        levels.push(next);
+    }
+    for at in (0..levels.len() - 1).rev() {
+        let (low, high) = levels.split_at_mut(at + 1);
+        low[at].fill(&high[0]);
+    }
+    levels.swap_remove(0).texels
+}
+
+/// A map in 8 bits. Scale and bias are those, per channel, whose squared error over the leaf is least.
+pub(crate) fn stored(raster: &FloatRaster, filled: &[Texel]) -> Stored {
+    let leaf: Vec<usize> = (0..filled.len()).filter(|at| raster.data[at * CHANNELS + 3] > 0.0).collect();
+    let ranges: Vec<(f64, f64)> = (0..3).into_par_iter().map(|c| best_range(filled, &leaf, c)).collect();
+    let greatest = leaf.iter().map(|at| filled[*at][3]).fold(0.0f32, f32::max);
+    let greatest = if greatest > 0.0 { f64::from(greatest) } else { 1.0 };
+    let word = |v: f64| (v * 255.0).round().clamp(0.0, 255.0) as u8;
+    let part = |c: usize, v: f32| {
+        let (low, high) = ranges[c];
+        word((f64::from(v) - low) / (high - low))
+    };
+    let texel = |t: &Texel| {
+        [part(0, t[0]), part(1, t[1]), part(2, t[2]), word(f64::from(t[3]) / greatest).max(1)]
+    };
+    let texels: Vec<[u8; 4]> = filled.par_iter().map(texel).collect();
+    let (mut sum, mut worst) = (0.0f64, 0.0f64);
+    for at in &leaf {
+        for (c, (low, high)) in ranges.iter().enumerate() {
+            let back = low + (high - low) * f64::from(texels[*at][c]) / 255.0;
+            let miss = (back - f64::from(filled[*at][c])).abs();
+            (sum, worst) = (sum + miss * miss, worst.max(miss));
+        }
+    }
+    let [scale, bias] = [|r: &(f64, f64)| r.1 - r.0, |r: &(f64, f64)| r.0].map(|f| [0, 1, 2].map(|c| f(&ranges[c])));
+    let rms_error = (sum / (3 * leaf.len()).max(1) as f64).sqrt();
+    let link = MapLink { scale, bias, mean_scale: greatest, rms_error, max_error: worst, ..MapLink::default() };
+    Stored { rgba: texels.into_flattened(), link }
+}
+
+/// Least and greatest number of a channel that 8 bits span: what lies beyond is cut where that costs less than coarser
+/// steps for all.
+fn best_range(filled: &[Texel], leaf: &[usize], channel: usize) -> (f64, f64) {
+    let value = |at: &usize| f64::from(filled[*at][channel]);
+    let (least, most) = leaf.iter().map(value).fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
+    if least >= most {
+        // One number, or none: any step holds it.
+        let only = if leaf.is_empty() { 0.0 } else { least };
+        return (only, only + 1.0);
+    }
+    let width = (most - least) / BINS as f64;
+    let mut bins = [0.0f64; BINS];
+    leaf.iter().for_each(|at| bins[(((value(at) - least) / width) as usize).min(BINS - 1)] += 1.0);
+    let total = leaf.len() as f64;
+    // Bins that must be left out at an end before more than a share of the texels is.
+    let edge = |cut: f64, bin: &dyn Fn(usize) -> usize| {
+        let mut seen = 0.0;
+        let first = (0..BINS).find(|at| {
+            seen += bins[bin(*at)];
+            seen > cut * total
+        });
+        bin(first.unwrap_or(0))
+    };
+    let lows: Vec<usize> = CUTS.iter().map(|cut| edge(*cut, &|at| at)).collect();
+    let highs: Vec<usize> = CUTS.iter().map(|cut| edge(*cut, &|at| BINS - 1 - at)).collect();
+    let mut best = (f64::MAX, least, most);
+    for low in &lows {
+        for high in highs.iter().filter(|high| *high >= low) {
+            let (a, b) = (least + width * *low as f64, least + width * (*high + 1) as f64);
+            let step = (b - a) / 255.0;
+            let beyond = |bin: usize| {
+                let center = least + width * (bin as f64 + 0.5);
+                (a - center).max(center - b).max(0.0)
+            };
+            let cut: f64 = (0..*low).chain(*high + 1..BINS).map(|bin| bins[bin] * beyond(bin) * beyond(bin)).sum();
+            let cost = total * step * step / 12.0 + cut;
+            if cost < best.0 {
+                best = (cost, a, b);
+            }
+        }
+    }
+    (best.1, best.2)
+}
+
+/// The map that a PNG of 8 bits stands for, off the leaf too: what is left where no EXR lies beside the file.
+pub(crate) fn from_png(rgba: &[u8], width: u32, height: u32, link: &MapLink) -> FloatRaster {
+    let texel = |t: &[u8]| {
+        let part = |c: usize| (link.bias[c] + link.scale[c] * f64::from(t[c]) / 255.0) as f32;
+        [part(0), part(1), part(2), (link.mean_scale * f64::from(t[3]) / 255.0) as f32]
+    };
+    let data = rgba.chunks_exact(CHANNELS).flat_map(texel).collect();
+    FloatRaster { width, height, channels: CHANNELS as u32, data }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disk of leaf in a square of nothing.
+    fn disk(size: u32) -> FloatRaster {
+        let texel = |at: u32| {
+            let (x, y) = ((at % size) as f32 + 0.5, (at / size) as f32 + 0.5);
+            let (dx, dy) = (x / size as f32 - 0.5, y / size as f32 - 0.5);
+            if dx * dx + dy * dy < 0.16 { [0.1 + 0.1 * dx, 0.05 * dy, -0.02 * dx, 0.1 + 0.05 * dy] } else { [0.0; 4] }
+        };
+        FloatRaster { width: size, height: size, channels: 4, data: (0..size * size).flat_map(texel).collect() }
+    }
+
+    /// Box mips of the filled map are means of leaf alone, at every level.
+    #[test]
+    fn mips_do_not_bleed_over_the_rim() {
+        for size in [1, 7, 64] {
+            let raster = disk(size);
+            let mut level = Level { width: size as usize, height: size as usize, texels: filled(&raster) };
+            let own = raster.data.chunks(4).map(|t| [t[0], t[1], t[2], t[3]]).collect();
+            let mut truth = Level { width: size as usize, height: size as usize, texels: own };
+            while level.width > 1 {
+                (level, truth) = (level.halved(), truth.halved());
+                for (mip, leaf) in level.texels.iter().zip(&truth.texels).filter(|(_, leaf)| is_leaf(leaf)) {
+                    assert!(mip.iter().zip(leaf).all(|(a, b)| (a - b).abs() < 1e-6), "{mip:?} {leaf:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn eight_bits_cost_half_a_step_and_alpha_is_above_zero() {
+        let raster = disk(64);
+        let filled = filled(&raster);
+        let map = stored(&raster, &filled);
+        let back = from_png(&map.rgba, 64, 64, &map.link);
+        let step = map.link.scale.into_iter().fold(0.0, f64::max) / 255.0;
+        assert!(map.link.max_error <= 0.5 * step + 1e-7, "{} of {step}", map.link.max_error);
+        assert!(map.link.rms_error < 0.3 * step);
+        assert!(map.rgba.chunks(4).all(|t| t[3] > 0));
+        for (a, b) in back.data.chunks(4).zip(&filled) {
+            assert!((f64::from(a[3]) - f64::from(b[3])).abs() <= map.link.mean_scale / 255.0);
+        }
+    }
+
+    /// One texel far off does not coarsen all others.
+    #[test]
+    fn a_spike_is_cut_where_that_costs_less() {
+        let mut raster = disk(256);
+        let middle = 4 * (128 * 256 + 128);
+        raster.data[middle] = 2.0;
+        let map = stored(&raster, &filled(&raster));
+        let plain = stored(&disk(256), &filled(&disk(256)));
+        assert!(map.link.scale[0] < 3.0 * plain.link.scale[0], "{:?}", map.link.scale);
+        assert!(map.link.max_error > 1.0);
+    }
+
+    #[test]
+    fn maps_of_one_number_or_none_are_stored() {
+        let one = FloatRaster { width: 1, height: 1, channels: 4, data: vec![0.25, 0.0, -0.1, 0.2] };
+        let map = stored(&one, &filled(&one));
+        assert!(map.link.max_error < 1e-9 && map.rgba[3] == 255);
+        let none = FloatRaster { width: 2, height: 3, channels: 4, data: vec![0.0; 24] };
+        assert!(stored(&none, &filled(&none)).rgba.chunks(4).all(|t| t[3] > 0));
+    }
+}

@@ -1,0 +1,86 @@
+//! A room that lives on maps, without a tree: maps in, EXR and PNG out.
+
+use super::Call;
+use crate::config::Settings;
+use crate::flags::Direct;
+use crate::gather::Sources;
+use crate::maps::{self, Gathering};
+use crate::options::{Mode, Options, is_dash};
+use crate::outputs::{self, Job};
+use crate::progress::Bar;
+use crate::runner::{self, Product};
+use crate::Failure;
+use foliar_bake::{Baker, Inputs, Layer, Request};
+use foliar_carrier::OutputFile;
+use foliar_schema::names;
+use std::path::{Path, PathBuf};
+
+/// Runs the command.
+pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
+    let options = Options::from(call.matches);
+    let console = options.console();
+    let room = baker.room();
+    let sources = Sources::new(call, Direct::Sections(&[room]))?;
+    let output = output(&options, room)?;
+    let job = Job { input: PathBuf::from(room), output: Some(output.clone()) };
+    runner::run(&options, &console, &[job], &mut |_, report| {
+        let mut settings = sources.gather(&options, Path::new(""), Settings::default())?;
+        report.read.extend(settings.files.iter().cloned());
+        let entries = maps::named(call.fields, &mut settings, Path::new(""))?;
+        let gathering = Gathering { fields: call.fields, settings: &settings, input: Path::new(""), plant: None };
+        let own = entries.get(room).cloned().unwrap_or_default();
+        if let Some(missing) = baker.needs().maps.iter().find(|map| !own.iter().any(|entry| entry.is(map))) {
+            let text = format!("{room} needs a map of {missing}: give it with --{missing} FILE; for a tree name the tree too");
+            return Err(Failure::usage(text));
+        }
+        if options.mode == Mode::DryRun {
+            return Ok(report.planned(&output, baker.about()));
+        }
+        let gathered = maps::gather(&gathering, baker, &own)?;
+        report.find(gathered.findings);
+        report.read.extend(gathered.files);
+        console.log(&report.lap("read"));
+        let Some(sheet) = gathered.sheets.first() else { return Err(Failure::Fault("no maps were gathered".into())) };
+        let bar = Bar::new(console.draws_progress());
+        let request = Request { given: sheet.given.clone(), reads: sheet.reads.clone(), ..Request::default() };
+        let inputs = Inputs { plant: None, maps: &sheet.maps, neighbors: &[] };
+        let (mut layer, findings) =
+            foliar_bake::run(baker, &inputs, &request, &bar).map_err(|e| sheet.blame(e.into()))?;
+        layer.record.given = settings.given(room);
+        report.find(findings.into_iter().map(|finding| sheet.placed(finding)));
+        report.set("facts", layer.record.facts.clone());
+        console.log(&report.lap(room));
+        let files = encode(&layer, &output)?;
+        console.log(&report.lap("encode"));
+        Ok(Product::Files(files))
+    })
+}
+
+fn output(options: &Options, room: &str) -> Result<PathBuf, Failure> {
+    let endings = format!("without a tree it must end in .exr, .png or .{}, or be -", names::LAYER_ENDING);
+    if options.directory.is_some() || options.picture.is_some() {
+        return Err(Failure::usage(format!("-d and --picture are for trees: name a tree, or say -o {room}.exr")));
+    }
+    let Some(output) = &options.output else {
+        return Err(Failure::usage(format!("where to? say -o leaf.exr, or name the tree that the maps go onto; {endings}")));
+    };
+    let ending = output.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+    match ending.as_deref() {
+        Some("png" | "exr" | names::LAYER_ENDING) => Ok(output.clone()),
+        _ if is_dash(output) => Ok(output.clone()),
+        _ => Err(Failure::usage(format!("-o {}: {endings}", output.display()))),
+    }
+}
+
+/// Files of the maps; standard output takes a PNG.
+fn encode(layer: &Layer, output: &Path) -> Result<Vec<OutputFile>, Failure> {
+    if outputs::is_layer(output) {
+        return outputs::encode_layer(layer, output);
+    }
+    if !is_dash(output) {
+        return Ok(foliar_carrier::encode_maps(layer, output)?);
+    }
+    let mut files = foliar_carrier::encode_maps(layer, Path::new("standard-output.png"))?;
+    let shown = files.pop().map(|file| OutputFile { path: output.to_path_buf(), ..file });
+    Ok(shown.into_iter().collect())
+}
