@@ -14,6 +14,7 @@ mod rungs;
 mod scores;
 mod subsets;
 mod tables;
+mod time;
 mod translucency;
 pub mod trees;
 mod wind;
@@ -33,7 +34,8 @@ pub fn run(name: Option<&str>) -> Result<()> {
         Some("wind") => wind::run(),
         Some("light") => engines::run(),
         Some("translucency") => translucency::run(),
-        _ => bail!("there are comparisons of density, wind, light and translucency: cargo xtask tradeoff density"),
+        Some("time") => time::run(),
+        _ => bail!("there are comparisons of density, wind, light and translucency, and time: cargo xtask tradeoff density"),
     }
 }
 
@@ -54,7 +56,7 @@ fn density() -> Result<()> {
         format!("### Trees\n\n{}", tables::trees(&judged)),
         format!("### Ambient terms\n\n{}", tables::ambient(&judged)),
         format!("### Normals\n\n{}", tables::normals(&judged)),
-        format!("### Accuracy and time, {}\n\n{}", trees::FIRST, tables::rungs(&rungs::climb(first)?)),
+        format!("### Accuracy and time, {}\n\n{}", trees::FIRST, tables::rungs(&rungs::climb(first, |_| true)?)),
         format!("### Fewer generators, {}\n\n{}", trees::FIRST, tables::subsets(&subsets::compare(first)?)),
     ]
     .join("\n");
