@@ -35,7 +35,9 @@ pub fn run(name: Option<&str>) -> Result<()> {
         Some("light") => engines::run(),
         Some("translucency") => translucency::run(),
         Some("time") => time::run(),
-        _ => bail!("there are comparisons of density, wind, light and translucency, and time: cargo xtask tradeoff density"),
+        _ => bail!(
+            "there are comparisons of density, wind, light and translucency, and time: cargo xtask tradeoff density"
+        ),
     }
 }
 
