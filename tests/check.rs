@@ -1,6 +1,7 @@
 //! `foliar-check`: what it reports, and the status that says so.
 
-use crate::common::{CHECK, FOLIAR, folder, output, run, run_in, text, tree};
+use crate::common::{CHECK, FOLIAR, folder, output, run, run_in, shared, text, tree};
+use std::path::PathBuf;
 
 #[test]
 fn a_sound_tree_passes_as_obj_and_as_master() {
@@ -46,4 +47,42 @@ fn severities_limits_and_baselines_decide_the_status() {
     let said = run(CHECK, &[text(&obj), "--baseline", text(&known)]).expect(0, &[]).stdout;
     assert!(said.contains("known from the baseline"), "{said}");
     run(CHECK, &[text(&obj), "--baseline", text(&obj)]).expect(2, &["no baseline"]);
+}
+
+/// Warnings of the shared trees as docs/judged.md lists them: files that a name stands in, and the code.
+const JUDGED: &[(&str, &str)] = &[
+    ("mtree_", "IMPORT-LYING"),
+    ("mtree_", "LEAF-NONE"),
+    ("proton_scatter/bush.glb", "ROLE-UNSURE"),
+    ("proton_scatter/dead_branch.glb", "IMPORT-LYING"),
+    ("proton_scatter/dead_branch.glb", "LEAF-NONE"),
+    ("tree3d/trunk_clean.obj", "LEAF-NONE"),
+    ("_crown_clean.obj", "ROLE-UNSURE"),
+    ("_clean.obj", "ROLE-MIXED"),
+];
+
+#[test]
+fn real_trees_give_no_error_and_only_judged_warnings() {
+    let Some(trees) = shared("trees") else { return };
+    let folders = std::fs::read_dir(&trees).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir());
+    let inside = folders.flat_map(|folder| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()));
+    let is_asset = |path: &PathBuf| path.extension().is_some_and(|e| ["obj", "gltf", "glb"].iter().any(|a| e == *a));
+    let mut files: Vec<PathBuf> = inside.filter(is_asset).collect();
+    files.sort();
+    let arguments: Vec<&str> = files.iter().map(|file| text(file)).chain(["--format", "json"]).collect();
+    let mut unjudged = Vec::new();
+    for report in run(CHECK, &arguments).expect(0, &[]).json_lines() {
+        let file = report["file"].as_str().unwrap();
+        for finding in report["findings"].as_array().unwrap().iter().filter(|f| f["severity"] != "note") {
+            let code = finding["code"].as_str().unwrap();
+            let is_crown = file.ends_with("_crown_clean.obj");
+            let fits = |(name, judged): &&(&str, &str)| {
+                *judged == code && file.contains(name) && (!is_crown || *name == "_crown_clean.obj")
+            };
+            if finding["severity"] == "error" || JUDGED.iter().find(fits).is_none() {
+                unjudged.push(format!("{file}: {code}"));
+            }
+        }
+    }
+    assert!(unjudged.is_empty() && files.len() > 30, "{unjudged:#?} in {} files", files.len());
 }

@@ -85,7 +85,8 @@ fn maps_alone_in_every_form() {
         run_in(here.path(), TRANSLUCENCY, &with_flags(&[&["--thickness", "t.png"], more].concat())).expect(0, &[])
     };
     bake(&["-o", "rgb.png", "--bands", "rgb"]);
-    for name in ["rgb.png", "rgb-front-red.png", "rgb-front-blue.png", "rgb-back.png", "rgb-back-blue.png", "rgb.json"] {
+    for name in ["rgb.png", "rgb-front-red.png", "rgb-front-blue.png", "rgb-back.png", "rgb-back-blue.png", "rgb.json"]
+    {
         assert!(here.path().join(name).is_file(), "{name}");
     }
     bake(&["-o", "leaf.layer", "--sides", "front"]);
@@ -123,7 +124,8 @@ fn laws_1_3_and_9_hold_with_maps() {
     assert_eq!(sides(&baked).len(), 2, "{:?}", sides(&baked));
     let ((old, old_bytes), (new, new_bytes)) = (open_glb(&base), open_glb(&baked));
     assert!(new_bytes.starts_with(&old_bytes));
-    let material = |json: &Value| json["materials"].as_array().unwrap().iter().position(|m| m["name"] == "leaves").unwrap();
+    let material =
+        |json: &Value| json["materials"].as_array().unwrap().iter().position(|m| m["name"] == "leaves").unwrap();
     let shows = &new["materials"][material(&new)]["extensions"]["KHR_materials_diffuse_transmission"];
     assert!(shows["diffuseTransmissionFactor"].as_f64().unwrap() > 0.0, "{shows}");
     // Again, and again for another room alone: the same file.
@@ -236,7 +238,8 @@ fn photographs_are_passed_on_and_embedded_maps_stand_alone() {
     let map = thickness(here.path(), "t.png", 16, 0.1);
     let photo = normals(here.path(), "photo.png", 20);
     let baked = fresh("lucy-photo.glb");
-    let flags = [text(&source), "--thickness", text(&map), "--backlit", text(&photo), "--embed-all", "-o", text(&baked)];
+    let flags =
+        [text(&source), "--thickness", text(&map), "--backlit", text(&photo), "--embed-all", "-o", text(&baked)];
     run(TRANSLUCENCY, &with_flags(&flags)).expect(0, &[]);
     verify_file(&baked).unwrap();
     assert!(sides(&baked).is_empty(), "{:?}", sides(&baked));

@@ -135,15 +135,19 @@ fn bad_maps_of_a_tree_leave_it_as_it_was() {
     std::fs::write(here.path().join("tree.mtl"), materials).unwrap();
     std::fs::write(here.path().join("out.glb"), "old").unwrap();
     let rows: Vec<Row> = vec![
-        ("which of two", vec!["two.obj", "--leaf", "leaves", "--leaf", "needles", "--thickness", "t.png"], 2, vec![
-            "leaves, needles",
-            "--material",
-        ]),
+        (
+            "which of two",
+            vec!["two.obj", "--leaf", "leaves", "--leaf", "needles", "--thickness", "t.png"],
+            2,
+            vec!["leaves, needles", "--material"],
+        ),
         ("no such material", vec!["tree.obj", "--thickness", "bread=t.png"], 2, vec!["bread", "leaves"]),
-        ("bad photograph", vec!["tree.obj", "--thickness", "t.png", "--backlit", "nan.exr"], 3, vec![
-            "nan.exr",
-            "PNG or JPEG",
-        ]),
+        (
+            "bad photograph",
+            vec!["tree.obj", "--thickness", "t.png", "--backlit", "nan.exr"],
+            3,
+            vec!["nan.exr", "PNG or JPEG"],
+        ),
         ("only a normal map", vec!["tree.obj", "--normal-back", "narrow.png"], 2, vec!["thickness", "leaves"]),
         ("all zero", vec!["tree.obj", "--thickness", "zero.png"], 3, vec!["zero.png", "0 everywhere"]),
     ];

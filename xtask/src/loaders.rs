@@ -2,10 +2,11 @@
 //! Python module bpy). Each compares what arrives with the numbers that a test wrote beside the file, as
 //! `X.glb.expected.json`. What is not installed is said and skipped.
 
+use crate::packages::{self, starts};
 use crate::{repo, run_tests, validator};
 use anyhow::{Context, Result, bail};
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 const FOLDER: &str = "xtask/loaders";
 /// Names the Python that has bpy; unset it is python3.
@@ -22,7 +23,7 @@ pub fn run() -> Result<()> {
     }
     let mut bad = Vec::new();
     if starts(Command::new("node").arg("--version")) {
-        install()?;
+        packages::install(FOLDER, "three/package.json")?;
         let mut node = Command::new("node");
         if repo::run(node.arg(repo::root().join(FOLDER).join("three.mjs")).args(&files)).is_err() {
             bad.push("three");
@@ -42,22 +43,6 @@ pub fn run() -> Result<()> {
         bail!("{} read something else than what was packed", bad.join(" and "));
     }
     Ok(())
-}
-
-/// Whether a command can be started and ends well.
-fn starts(command: &mut Command) -> bool {
-    command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
-}
-
-/// Installs the pinned loader unless it is there.
-fn install() -> Result<()> {
-    let folder = repo::root().join(FOLDER);
-    if folder.join("node_modules/three/package.json").exists() {
-        return Ok(());
-    }
-    let mut npm = Command::new("npm");
-    npm.args(["ci", "--no-audit", "--no-fund", "--silent", "--prefix"]).arg(&folder);
-    repo::run(&mut npm).context("three could not be installed")
 }
 
 /// Loads all files with Blender, its own chatter left out; what it says of them is printed for the first seed

@@ -16,6 +16,7 @@ mod gallery;
 mod generated;
 mod loaders;
 mod obj_text;
+mod packages;
 mod repo;
 mod run_tests;
 #[cfg(feature = "foliar")]

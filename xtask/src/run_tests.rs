@@ -1,6 +1,6 @@
 //! Everything that must pass before work is handed in, one step after the other.
 
-use crate::{fixtures, generated, loaders, repo, tidy, validator, with_foliar};
+use crate::{fixtures, generated, loaders, packages, repo, tidy, validator, with_foliar};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 type Step = (&'static str, fn() -> Result<()>);
 
 /// In the order in which a person wants to hear of a fault.
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 11] = [
     ("format", || cargo(&["fmt", "--all", "--check"])),
     ("tidy", tidy::run),
     ("lints", || {
@@ -21,6 +21,7 @@ const STEPS: [Step; 10] = [
     }),
     ("generated documents", || generated::run(true)),
     ("fixtures", fixtures::check),
+    ("npm packages", packages::for_tests),
     ("tests", tests),
     ("validator", validator::run),
     ("second reader", || with_foliar::run("second-reader", None)),

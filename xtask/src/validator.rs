@@ -1,7 +1,7 @@
 //! The Khronos validator over every glTF that a test wrote. A file `X.glb.input` beside `X.glb` holds
 //! the path of the foreign file that X was made from: X may then earn each complaint as often as it does.
 
-use crate::repo;
+use crate::{packages, repo};
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ pub fn run() -> Result<()> {
     if outputs.is_empty() {
         bail!("no test left a .glb or .gltf in {OUTPUTS}: run cargo test first");
     }
-    install()?;
+    packages::install(FOLDER, "gltf-validator/package.json")?;
     let inputs: BTreeMap<&PathBuf, PathBuf> = outputs.iter().filter_map(|o| Some((o, input_of(o)?))).collect();
     let mut all: Vec<PathBuf> = outputs.iter().chain(inputs.values()).cloned().collect();
     all.sort();
@@ -65,17 +65,6 @@ pub fn outputs() -> Result<Vec<PathBuf>> {
 fn input_of(output: &Path) -> Option<PathBuf> {
     let note = std::fs::read_to_string(format!("{}.input", output.display())).ok()?;
     Some(PathBuf::from(note.trim()))
-}
-
-/// Installs the pinned validator unless it is there.
-fn install() -> Result<()> {
-    let folder = repo::root().join(FOLDER);
-    if folder.join("node_modules/gltf-validator/package.json").exists() {
-        return Ok(());
-    }
-    let mut npm = Command::new("npm");
-    npm.args(["ci", "--no-audit", "--no-fund", "--silent", "--prefix"]).arg(&folder);
-    repo::run(&mut npm).context("the Khronos validator could not be installed")
 }
 
 fn validate(files: &[PathBuf]) -> Result<BTreeMap<PathBuf, Complaints>> {

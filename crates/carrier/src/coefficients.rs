@@ -122,9 +122,7 @@ pub(crate) fn stored(raster: &FloatRaster, filled: &[Texel]) -> Stored {
         let (low, high) = ranges[c];
         word((f64::from(v) - low) / (high - low))
     };
-    let texel = |t: &Texel| {
-        [part(0, t[0]), part(1, t[1]), part(2, t[2]), word(f64::from(t[3]) / greatest).max(1)]
-    };
+    let texel = |t: &Texel| [part(0, t[0]), part(1, t[1]), part(2, t[2]), word(f64::from(t[3]) / greatest).max(1)];
     let texels: Vec<[u8; 4]> = filled.par_iter().map(texel).collect();
     let (mut sum, mut worst) = (0.0f64, 0.0f64);
     for at in &leaf {

@@ -38,7 +38,8 @@ pub(crate) fn encode(layer: &Layer, path: &Path) -> Result<Vec<OutputFile>, Carr
     let about = json!({ "contract": CONTRACT, "record": layer.record, "translucency": links });
     files.push(OutputFile { path: path.with_extension("json"), bytes: format!("{about:#}\n").into_bytes() });
     // The named file is the commit, whatever the case of its ending.
-    let commit = files.iter().position(|file| file.path.with_extension("") == path.with_extension("") && same_kind(file, path));
+    let commit =
+        files.iter().position(|file| file.path.with_extension("") == path.with_extension("") && same_kind(file, path));
     if let Some(at) = commit {
         let mut file = files.remove(at);
         file.path = path.to_path_buf();

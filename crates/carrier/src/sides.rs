@@ -48,7 +48,8 @@ fn links(json: &mut Value) -> Vec<&mut Value> {
             "asset" => value.get_mut("extras"),
             _ => None,
         };
-        let sheets = holder.and_then(|h| h.get_mut(names::EXTENSION)?.get_mut(names::ROOM_TRANSLUCENCY)?.as_object_mut());
+        let sheets =
+            holder.and_then(|h| h.get_mut(names::EXTENSION)?.get_mut(names::ROOM_TRANSLUCENCY)?.as_object_mut());
         for sheet in sheets.into_iter().flat_map(|sheets| sheets.values_mut()) {
             let maps = sheet.get_mut("maps").and_then(Value::as_object_mut);
             found.extend(maps.into_iter().flat_map(|maps| maps.values_mut()).filter_map(|map| map.get_mut("exr")));

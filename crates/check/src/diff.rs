@@ -2,7 +2,8 @@
 
 use foliar_bake::{Array, Layer};
 use foliar_numerics::ErrorStats;
-use foliar_schema::{Channel, channel};
+use foliar_plant::Place;
+use foliar_schema::{Channel, Column, Role, channel, column, names};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,6 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 const WORST: usize = 3;
 /// A column has no visible step: its greatest number over this stands in for one.
 const COLUMN_STEPS: f64 = 1000.0;
+/// One that is a direction has the step of normals.
+const DIRECTION_STEP_DEG: f64 = 1.0;
 
 /// One place where two bakes differ.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -47,6 +50,13 @@ pub struct Difference {
 }
 
 impl Difference {
+    /// Nothing compared yet.
+    fn of(key: &Key, problem: Option<String>) -> Self {
+        let (room, name) = key.clone();
+        let (rms_steps, p999_steps, max_steps) = (0.0, 0.0, 0.0);
+        Difference { room, name, count: 0, problem, rms_steps, p999_steps, max_steps, worst: Vec::new() }
+    }
+
     /// Whether it is beyond a tolerance in steps.
     pub fn exceeds(&self, tolerance: f64) -> bool {
         self.problem.is_some() || self.max_steps > tolerance
@@ -55,11 +65,12 @@ impl Difference {
 
 /// How the layers of two files differ: every channel and column of either, by room and name.
 pub fn diff(a: &[Layer], b: &[Layer]) -> Vec<Difference> {
+    let layers = (a, b);
     let (a, b) = (by_name(a), by_name(b));
     let names: BTreeSet<&Key> = a.keys().chain(b.keys()).collect();
     let none = BTreeMap::new();
     let of = |all: &'_ BTreeMap<Key, _>, key| all.get(key).is_some();
-    let mut all = Vec::new();
+    let mut all: Vec<Difference> = roles(layers.0, layers.1).into_iter().collect();
     for key in names {
         let only = |file: &str| Some(format!("only in {file}"));
         let problem = match (of(&a, key), of(&b, key)) {
@@ -70,6 +81,23 @@ pub fn diff(a: &[Layer], b: &[Layer]) -> Vec<Difference> {
         all.push(one(key, problem, a.get(key).unwrap_or(&none), b.get(key).unwrap_or(&none)));
     }
     all
+}
+
+/// Roles of parts, where either file tells any.
+fn roles(a: &[Layer], b: &[Layer]) -> Option<Difference> {
+    let of = |layers: &[Layer]| -> BTreeMap<Place, Role> {
+        layers.iter().flat_map(|layer| layer.roles.iter().map(|(place, role)| (*place, *role))).collect()
+    };
+    let (a, b) = (of(a), of(b));
+    let places: BTreeSet<Place> = a.keys().chain(b.keys()).copied().collect();
+    let name = |role: Option<&Role>| role.map_or_else(|| "nothing".into(), ToString::to_string);
+    let other = places.iter().find(|place| a.get(place) != b.get(place));
+    let problem = other.map(|place| {
+        let (mesh, primitive) = (place.mesh, place.primitive);
+        format!("mesh {mesh} primitive {primitive}: {}, {}", name(a.get(place)), name(b.get(place)))
+    });
+    let key = (names::ROOM_STRUCTURE.into(), "role".into());
+    (!places.is_empty()).then(|| Difference { count: places.len(), ..Difference::of(&key, problem) })
 }
 
 /// Room and name.
@@ -99,16 +127,7 @@ fn one(key: &Key, problem: Option<String>, a: &Arrays, b: &Arrays) -> Difference
         let place = b.keys().find(|place| !a.contains_key(*place))?;
         Some(format!("{place}: only in the second file"))
     });
-    let mut difference = Difference {
-        room: key.0.clone(),
-        name: key.1.clone(),
-        count: 0,
-        problem,
-        rms_steps: 0.0,
-        p999_steps: 0.0,
-        max_steps: 0.0,
-        worst: Vec::new(),
-    };
+    let mut difference = Difference::of(key, problem);
     if difference.problem.is_some() {
         return difference;
     }
@@ -157,6 +176,10 @@ fn values(array: &Array, row: usize) -> Vec<f64> {
     }
 }
 
+fn is_direction(name: &str) -> bool {
+    of_column(name).is_some_and(|column| column.unit.starts_with("unit vector"))
+}
+
 /// How a distance becomes steps.
 enum Measure {
     /// Angle between unit vectors, a step in radians.
@@ -178,6 +201,7 @@ impl Measure {
             None if of_column(name).is_some_and(|column| column.optical_depth) => {
                 Measure::Depth(of_column(name).map_or(1.0, |column| column.visible_step))
             }
+            None if is_direction(name) => Measure::Angle(DIRECTION_STEP_DEG.to_radians()),
             // A number that names a row is the same or another.
             None if pairs.iter().any(|(_, array, _)| matches!(array, Array::I32 { .. })) => Measure::Length(1.0),
             None => {
@@ -205,16 +229,14 @@ impl Measure {
 }
 
 /// The column of a name as it stands here: class and property.
-fn of_column(name: &str) -> Option<&'static foliar_schema::Column> {
-    name.split_once('/').and_then(|(class, property)| foliar_schema::column(class, property))
+fn of_column(name: &str) -> Option<&'static Column> {
+    name.split_once('/').and_then(|(class, property)| column(class, property))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foliar_bake::AttributeKey;
-    use foliar_plant::Place;
-    use foliar_schema::names;
+    use foliar_bake::{AttributeKey, ColumnKey};
 
     fn layer(values: &[f32]) -> Layer {
         let mut layer = Layer::default();
@@ -251,6 +273,25 @@ mod tests {
         };
         let (dark, bright) = (diff(&[layer(9.0)], &[layer(12.0)]), diff(&[layer(0.1)], &[layer(0.2)]));
         assert!(!dark[0].exceeds(0.05) && bright[0].exceeds(20.0), "{dark:?} {bright:?}");
+    }
+
+    #[test]
+    fn directions_are_compared_by_angles_and_roles_by_name() {
+        let with = |normal: [f32; 3], role: Role| {
+            let mut layer = layer(&[0.5]);
+            let key = ColumnKey { class: names::CLASS_LEAF.into(), property: "normal".into() };
+            layer.columns.insert(key, Array::F32 { width: 3, data: normal.to_vec() });
+            layer.roles.insert(Place::default(), role);
+            layer
+        };
+        let (up, aside) = ([0.0, 1.0, 0.0], [0.0, 0.999_847_7, 0.017_452_406]);
+        let found = diff(&[with(up, Role::Leaf)], &[with(aside, Role::Wood)]);
+        let of = |name: &str| found.iter().find(|d| d.name == name).unwrap();
+        assert!((of("foliarLeaf/normal").max_steps - 1.0).abs() < 1e-3, "{found:?}");
+        assert_eq!(of("role").problem.as_deref(), Some("mesh 0 primitive 0: leaf, wood"));
+        assert!(of("role").exceeds(1e9));
+        let same = diff(&[with(up, Role::Leaf)], &[with(up, Role::Leaf)]);
+        assert!(same.iter().all(|d| !d.exceeds(0.0)), "{same:?}");
     }
 
     #[test]

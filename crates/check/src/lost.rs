@@ -1,7 +1,7 @@
 //! What a third-party optimizer lost: a file beside the master that it was made from.
 
 use crate::Report;
-use foliar_carrier::survey::{Found, Survey};
+use foliar_carrier::survey::{Found, Survey, Trouble};
 use foliar_schema::{CHANNELS, Channel, Finding, code, names};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,7 +36,8 @@ pub(crate) fn compare(after: &Survey, master: &Survey, report: &mut Report) {
     materials(after, master, report);
     let triangles = |seen: &Survey| seen.base.parts.iter().map(|part| part.triangles.len()).sum::<usize>();
     let (before, now) = (triangles(master), triangles(after));
-    if before != now && !report.has(&code::FILE_COMPRESSED) && !after.base.parts.is_empty() {
+    let is_read = !after.problems.iter().any(|problem| problem.trouble == Trouble::Compressed);
+    if before != now && is_read && !after.base.parts.is_empty() {
         report.say(&code::LOST_GEOMETRY, "", format!("{before} triangles in the master, {now} here"));
     }
 }
@@ -69,6 +70,11 @@ fn name<'a>(master: &'a Survey, channel: &'a str) -> &'a str {
     master.foliage().and_then(|root| root["renamed"][channel].as_str()).unwrap_or(channel)
 }
 
+/// Whether a primitive's attributes lie in a code of their own.
+fn is_coded(primitive: &Value) -> bool {
+    !primitive["extensions"]["KHR_draco_mesh_compression"].is_null()
+}
+
 /// Everything that primitives carry under a name.
 struct Carried {
     primitives: usize,
@@ -81,7 +87,9 @@ fn carried(seen: &Survey, attribute: impl Fn(&Value) -> Option<String>) -> Carri
     for (_, primitive) in primitives(seen) {
         let Some(name) = attribute(primitive).filter(|name| !primitive["attributes"][name].is_null()) else { continue };
         all.primitives += 1;
-        match (seen.attribute(primitive, &name), &mut all.values) {
+        // What only a decoder can read reads as zeros here.
+        let read = seen.attribute(primitive, &name).filter(|_| !is_coded(primitive));
+        match (read, &mut all.values) {
             (Some(read), Some(values)) => values.extend(read.values),
             _ => all.values = None,
         }
@@ -118,17 +126,20 @@ fn values(after: &Survey, master: &Survey, channel: &Channel, report: &mut Repor
     }
 }
 
-/// How far two lots of numbers, both ascending, must be apart: number by number where there are as many, else by their
-/// ends. Renumbered vertices do not count.
+/// How far two lots of numbers, both ascending, must be apart: number by number where there are as many, else from each new
+/// one to the nearest old one. Vertices that were renumbered, welded or taken away do not count.
 fn difference(old: &[f32], new: &[f32]) -> f64 {
-    let apart = |a: Option<&f32>, b: Option<&f32>| match (a, b) {
-        (Some(a), Some(b)) => (f64::from(*a) - f64::from(*b)).abs(),
-        _ => 0.0,
-    };
+    let apart = |a: f32, b: f32| (f64::from(a) - f64::from(b)).abs();
     if old.len() == new.len() {
-        return old.iter().zip(new).map(|(a, b)| apart(Some(a), Some(b))).fold(0.0, f64::max);
+        return old.iter().zip(new).map(|(a, b)| apart(*a, *b)).fold(0.0, f64::max);
     }
-    apart(old.first(), new.first()).max(apart(old.last(), new.last()))
+    let nearest = |value: f32| {
+        let after = old.partition_point(|known| *known < value);
+        let around = [after.checked_sub(1), Some(after)];
+        let known = around.into_iter().flatten().filter_map(|at| old.get(at));
+        known.map(|known| apart(*known, value)).fold(f64::INFINITY, f64::min)
+    };
+    new.iter().map(|value| nearest(*value)).fold(0.0, f64::max)
 }
 
 /// The attribute that holds the ids of a label.
@@ -217,10 +228,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_compared_in_order_or_by_their_ends() {
+    fn numbers_are_compared_in_order_or_with_the_nearest() {
         assert!(difference(&[0.0, 0.5, 1.0], &[0.0, 0.5, 1.0]) == 0.0);
         assert!((difference(&[0.0, 0.5, 1.0], &[0.0, 0.25, 1.0]) - 0.25).abs() < 1e-9);
-        assert!(difference(&[0.0, 0.5, 1.0], &[0.0, 1.0]) == 0.0, "a welded vertex is no change of values");
-        assert!((difference(&[0.0, 0.5], &[0.0, 0.1, 0.2]) - 0.3).abs() < 1e-6);
+        assert!(difference(&[0.0, 0.5, 1.0], &[0.5, 0.5]) == 0.0, "vertices that are gone change no value");
+        assert!((difference(&[0.0, 0.5], &[0.0, 0.1, 0.7]) - 0.2).abs() < 1e-6);
     }
 }

@@ -25,6 +25,12 @@ pub(crate) fn roles(seen: &Survey, settings: &Settings, report: &mut Report) -> 
     findings.retain(|finding| seen.problems.is_empty() || finding.code != code::LEAF_NONE.code);
     for finding in &mut findings {
         finding.file = Some(report.file.into());
+        if finding.code == code::IMPORT_LYING.code {
+            finding.message += match seen.source {
+                Some(SourceKind::Obj) => "; where Z was up, say --up z; a branch that lies is as it should be",
+                _ => "; turn it in the exporter, unless it is a branch that lies",
+            };
+        }
         let place = finding.place.as_deref();
         let part = parts.iter().zip(&seen.base.parts).find(|(evidence, _)| {
             place == Some(&format!("/meshes/{}/primitives/{}", evidence.place.mesh, evidence.place.primitive))

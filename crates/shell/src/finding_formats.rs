@@ -50,13 +50,14 @@ fn severity(severity: Severity) -> &'static str {
 }
 
 fn sarif(reports: &[Map<String, Value>]) -> Value {
-    let rule = |info: &foliar_schema::CodeInfo| json!({"id": info.code, "shortDescription": {"text": info.doc}});
+    let failed = rule(FAILED, "The file could not be worked on: the message says why.", Severity::Error);
+    let rules = CODES.iter().map(|info| rule(info.code, info.doc, info.severity)).chain([failed]);
     let result = |finding: Finding| {
         let uri = finding.file.as_deref().map(uri).unwrap_or_default();
-        let mut location = json!({"physicalLocation": {"artifactLocation": {"uri": uri}}});
-        if let Some(line) = line(&finding) {
-            location["physicalLocation"]["region"] = json!({"startLine": line});
-        } else if let Some(place) = &finding.place {
+        // GitHub shows nothing without a line; what has none belongs to the whole file.
+        let region = json!({"startLine": line(&finding).unwrap_or(1)});
+        let mut location = json!({"physicalLocation": {"artifactLocation": {"uri": uri}, "region": region}});
+        if let (None, Some(place)) = (line(&finding), &finding.place) {
             location["logicalLocations"] = json!([{"fullyQualifiedName": place}]);
         }
         json!({
@@ -73,10 +74,21 @@ fn sarif(reports: &[Map<String, Value>]) -> Value {
             "tool": {"driver": {
                 "name": "foliar",
                 "version": env!("CARGO_PKG_VERSION"),
-                "rules": CODES.iter().map(rule).collect::<Vec<_>>(),
+                "rules": rules.collect::<Vec<_>>(),
             }},
             "results": reports.iter().flat_map(findings).map(result).collect::<Vec<_>>(),
         }],
+    })
+}
+
+/// A code as SARIF knows it, with all that GitHub's code scanning asks for.
+fn rule(code: &str, doc: &str, level: Severity) -> Value {
+    json!({
+        "id": code,
+        "shortDescription": {"text": doc},
+        "fullDescription": {"text": doc},
+        "help": {"text": format!("{doc} More: foliar explain {code}.")},
+        "defaultConfiguration": {"level": severity(level)},
     })
 }
 
@@ -84,7 +96,15 @@ fn sarif(reports: &[Map<String, Value>]) -> Value {
 fn uri(path: &str) -> String {
     const KEPT: percent_encoding::AsciiSet =
         percent_encoding::NON_ALPHANUMERIC.remove(b'/').remove(b'.').remove(b'-').remove(b'_').remove(b'~');
-    percent_encoding::utf8_percent_encode(&path.replace('\\', "/"), &KEPT).to_string()
+    let encoded = |path: &str| percent_encoding::utf8_percent_encode(path, &KEPT).to_string();
+    let path = path.replace('\\', "/");
+    match path.split_at_checked(2) {
+        _ if path.starts_with('/') => format!("file://{}", encoded(&path)),
+        Some((drive, rest)) if drive.ends_with(':') && rest.starts_with('/') => {
+            format!("file:///{drive}{}", encoded(rest))
+        }
+        _ => encoded(&path),
+    }
 }
 
 /// One suite per asset; notes pass, all else fails.
@@ -99,12 +119,17 @@ fn suite(report: &Map<String, Value>) -> String {
     let failed = all.iter().filter(|finding| finding.severity > Severity::Note).count();
     let case = |finding: &Finding| {
         let text = xml(&format!("{}: {}", finding.place.as_deref().unwrap_or("file"), finding.message));
-        let tag = if finding.severity > Severity::Note { "failure" } else { "system-out" };
-        let open = format!("<testcase classname=\"{name}\" name=\"{}\">", finding.code);
-        format!("    {open}<{tag}>{text}</{tag}></testcase>\n")
+        let open = format!("<testcase classname=\"{name}\" name=\"{}\">", xml(&finding.code));
+        let said = if finding.severity > Severity::Note {
+            let first = xml(finding.message.lines().next().unwrap_or_default());
+            format!("<failure type=\"{}\" message=\"{first}\">{text}</failure>", severity(finding.severity))
+        } else {
+            format!("<system-out>{text}</system-out>")
+        };
+        format!("    {open}{said}</testcase>\n")
     };
     let bake =
-        if failed == 0 { format!("    <testcase classname=\"{name}\" name=\"bake\"/>\n") } else { String::new() };
+        if failed == 0 { format!("    <testcase classname=\"{name}\" name=\"no faults\"/>\n") } else { String::new() };
     let cases: String = all.iter().map(case).collect();
     let tests = all.len() + usize::from(failed == 0);
     format!("  <testsuite name=\"{name}\" tests=\"{tests}\" failures=\"{failed}\">\n{bake}{cases}  </testsuite>\n")
@@ -113,7 +138,7 @@ fn suite(report: &Map<String, Value>) -> String {
 /// Text as XML has it; control characters that XML has not are left out.
 fn xml(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
-    text.chars().filter(|c| !c.is_control() || *c == '\n').collect()
+    text.chars().filter(|c| (!c.is_control() || *c == '\n') && !matches!(c, '\u{FFFE}' | '\u{FFFF}')).collect()
 }
 
 fn github(finding: &Finding) -> String {
@@ -122,7 +147,9 @@ fn github(finding: &Finding) -> String {
     let property = |text: &str| data(text).replace(':', "%3A").replace(',', "%2C");
     let line = line(finding).map_or_else(String::new, |line| format!(",line={line}"));
     let file = property(finding.file.as_deref().unwrap_or_default());
-    format!("::{word} file={file}{line},title={}::{}", finding.code, data(&finding.message))
+    // A place that is no line would be lost.
+    let place = finding.place.as_ref().filter(|_| line.is_empty()).map_or_else(String::new, |p| format!("{p}: "));
+    format!("::{word} file={file}{line},title={}::{}{}", finding.code, data(&place), data(&finding.message))
 }
 
 #[cfg(test)]
@@ -147,6 +174,14 @@ mod tests {
             (&"a%2Cb.obj".into(), &7.into())
         );
         assert_eq!(all["runs"][0]["results"][1]["ruleId"], "FAILED");
+        let rules = all["runs"][0]["tool"]["driver"]["rules"].as_array().unwrap();
+        assert_eq!(rules.len(), CODES.len() + 1, "every code that a result may name is a rule");
+    }
+
+    #[test]
+    fn a_path_from_the_root_is_a_whole_uri() {
+        let uris = ["a b.obj", "/x/ü.obj", "C:\\x\\a.obj"].map(uri);
+        assert_eq!(uris, ["a%20b.obj", "file:///x/%C3%BC.obj", "file:///C:/x/a.obj"]);
     }
 
     #[test]
@@ -154,8 +189,9 @@ mod tests {
         let text = junit(&[report()]);
         assert!(text.contains("tests=\"2\" failures=\"2\""), "{text}");
         assert!(text.contains("a &lt;b&gt; &amp; &quot;c&quot;"), "{text}");
+        assert!(text.contains("<failure type=\"warning\" message=\"a &lt;b&gt; &amp; &quot;c&quot;,\">"), "{text}");
         let clean = junit(&[json!({"asset": "a.obj", "findings": []}).as_object().unwrap().clone()]);
-        assert!(clean.contains("tests=\"1\" failures=\"0\"") && clean.contains("name=\"bake\""), "{clean}");
+        assert!(clean.contains("tests=\"1\" failures=\"0\"") && clean.contains("name=\"no faults\""), "{clean}");
     }
 
     #[test]
@@ -163,5 +199,7 @@ mod tests {
         let all = text(Format::Github, &[report()]).unwrap();
         let first = all.lines().next().unwrap();
         assert_eq!(first, "::warning file=a%2Cb.obj,line=7,title=IMPORT-MTL::a <b> & \"c\",%0A50 %25");
+        let placed = Finding::new(&code::STALE, "changed").at("/meshes/0").in_file("a.glb");
+        assert_eq!(github(&placed), "::warning file=a.glb,title=STALE::/meshes/0: changed");
     }
 }

@@ -251,7 +251,9 @@ pub fn settle(
         if sheets.is_empty() {
             let what = wants.join(", ");
             if baking.only.is_some_and(|only| only.iter().any(|name| name == room)) {
-                return Err(Failure::usage(format!("{room} needs a map: --{what} FILE, or {what} in section [{room}]")));
+                return Err(Failure::usage(format!(
+                    "{room} needs a map: --{what} FILE, or {what} in section [{room}]"
+                )));
             }
             (row.needed, row.because) = (false, format!("no map of {what} is given for a leaf material"));
         }
@@ -529,7 +531,8 @@ fn photograph(bytes: &[u8], name: &str) -> Result<Vec<u8>, Failure> {
 /// Where the color of a material says that there is leaf: 1 or 0.
 fn own_alpha(plant: Option<&Plant>, name: &str) -> Option<MapRaster> {
     let base = plant?.base();
-    let index = (0..base.materials.len() as u32).find(|index| plant.is_some_and(|p| material_name(p, *index) == name))?;
+    let index =
+        (0..base.materials.len() as u32).find(|index| plant.is_some_and(|p| material_name(p, *index) == name))?;
     let material = base.materials.get(index as usize)?;
     let cutoff = match material.alpha_mode {
         AlphaMode::Opaque => return None,

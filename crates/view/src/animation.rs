@@ -38,7 +38,7 @@ pub fn turntable(
             sun_azimuth_deg: params.sun_azimuth_deg - turn,
             ..params.clone()
         };
-        render::draw(&scene, Camera::fit(swept.iter().copied(), &params), shading, &params)
+        render::draw(&scene, Camera::fit(swept.iter().copied(), &scene.frame, &params), shading, &params)
     };
     (0..frames).map(turned).collect()
 }

@@ -2,6 +2,7 @@
 //! is centered and its longest edge is [`PLANT_EDGE`].
 
 use crate::ViewParams;
+use crate::frame::Frame;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// Longest edge of the plant in the picture's frame: comfortable numbers for f32 whatever the plant's unit.
@@ -27,6 +28,8 @@ pub(crate) fn right(azimuth_deg: f64) -> DVec3 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Camera {
     pub eye: Vec3,
+    /// What it looks at: the chosen point, else the middle of what is shown.
+    pub focus: Vec3,
     pub right: Vec3,
     up: Vec3,
     forward: Vec3,
@@ -36,8 +39,9 @@ pub(crate) struct Camera {
 }
 
 impl Camera {
-    /// The nearest camera that sees all `points` with the margin around them, centered as a whole.
-    pub fn fit(points: impl Iterator<Item = Vec3>, params: &ViewParams) -> Camera {
+    /// The nearest camera that sees all `points` with the margin around them, centered as a whole; or the one that
+    /// was chosen, `frame` taking its place into the picture's frame.
+    pub fn fit(points: impl Iterator<Item = Vec3>, frame: &Frame, params: &ViewParams) -> Camera {
         let backward = direction(params.azimuth_deg, params.elevation_deg);
         let right = right(params.azimuth_deg);
         let up = backward.cross(right);
@@ -62,10 +66,17 @@ impl Camera {
             (upper, lower) = (DVec2::splat(PLANT_EDGE), DVec2::splat(PLANT_EDGE));
         }
         let shift = (upper - lower) / 2.0;
-        let distance = ((upper + lower) / 2.0 / inner).max_element().max(nearest + LEAST_DISTANCE);
-        let eye = backward * distance + right * shift.x + up * shift.y;
+        let fitted = ((upper + lower) / 2.0 / inner).max_element().max(nearest + LEAST_DISTANCE);
+        let target = match (params.target_m, params.distance_m) {
+            (Some(target), _) => frame.place(DVec3::from_array(target)),
+            (None, Some(_)) => DVec3::ZERO,
+            (None, None) => right * shift.x + up * shift.y,
+        };
+        let distance = params.distance_m.map_or(fitted, |meters| meters * frame.per_meter());
+        let eye = target + backward * distance;
         Camera {
             eye: eye.as_vec3(),
+            focus: params.target_m.map_or(Vec3::ZERO, |_| target.as_vec3()),
             right: right.as_vec3(),
             up: up.as_vec3(),
             forward: -backward.as_vec3(),

@@ -11,7 +11,7 @@ pub enum ViewError {
     #[error("view.{0}")]
     Range(#[from] RangeError),
     /// A parameter is NaN or infinite.
-    #[error("view: angles and exposure must be finite numbers")]
+    #[error("view: angles, places and exposure must be finite numbers")]
     NotFinite,
     /// No layer holds what is to be shown.
     #[error("no channel or column {name:?} to show: the layers hold {known}")]

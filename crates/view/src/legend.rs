@@ -64,27 +64,49 @@ fn bar_color(kind: &Key, share: f32, row: u32) -> Vec3 {
         Key::Diverging(_) => colors::diverging(2.0 * share - 1.0),
         // Upper half: toward the axis; lower half: away from it.
         Key::Direction => colors::of_direction(axis(Vec3::AXES) * if row < BAR[1] / 2 { 1.0 } else { -1.0 }),
-        Key::Box => axis(Vec3::AXES) * colors::to_linear(third.fract()),
+        Key::Steps(low, high) => colors::ramp(step(share, high - low) as f32 / (high - low) as f32),
+        Key::Box(..) => axis(Vec3::AXES) * colors::to_linear(third.fract()),
         Key::Ids(_) => colors::of_id((share * 31.99) as u32),
         Key::Roles => colors::of_role(ROLES[third as usize]),
     }
 }
 
+/// Which of `span` + 1 blocks of the bar lies there.
+fn step(share: f32, span: i32) -> i32 {
+    ((share * (span + 1) as f32) as i32).min(span)
+}
+
+/// Three digits: a third of the bar holds two numbers.
+fn short(value: f32) -> String {
+    let digits = if value.abs() >= 100.0 { 0 } else { usize::from(value.abs() < 10.0) + 1 };
+    format!("{value:.digits$}")
+}
+
 fn numbers(picture: &mut RgbaImage, kind: &Key, x: u32, y: u32) {
     let words: Vec<String> = match kind {
+        Key::Ramp(low, high) if low >= high => vec![format!("{} everywhere", number(*low))],
         Key::Ramp(low, high) => vec![number(*low), number(low.midpoint(*high)), number(*high)],
         Key::Diverging(most) => vec![number(-most), "0".into(), format!("+{}", number(*most))],
         Key::Direction => ["+-X", "+-Y", "+-Z"].map(String::from).into(),
-        Key::Box => ["X", "Y", "Z"].map(String::from).into(),
+        Key::Box(names, low, high) => {
+            let word = |c: usize| format!("{} {}..{}", names[c], short(low[c]), short(high[c]));
+            (0..3).map(|c| text::fitted(SMALL, &word(c), BAR[0] / 3)).collect()
+        }
+        Key::Steps(low, high) => (*low..=*high).map(|n| n.to_string()).collect(),
         Key::Roles => ROLES.map(|role| role.to_string()).into(),
         Key::Ids(count) => vec![format!("{count} ids, colors without order")],
     };
     let last = words.len().max(2) - 1;
+    let blocks = words.len().max(1) as u32;
     for (index, word) in words.iter().enumerate() {
         let length = text::width(SMALL, word);
-        // First at the left end, last at the right end, others centered.
-        let free = BAR[0].saturating_sub(length);
-        let at = x + free * index as u32 / last as u32;
+        let at = if matches!(kind, Key::Steps(..) | Key::Box(..) | Key::Direction | Key::Roles) {
+            // Under the middle of its block.
+            x + (BAR[0] * (2 * index as u32 + 1) / (2 * blocks)).saturating_sub(length / 2)
+        } else {
+            // First at the left end, last at the right end, others centered.
+            x + BAR[0].saturating_sub(length) * index as u32 / last as u32
+        };
         text::write(picture, SMALL, i64::from(at), i64::from(y), word, 235);
     }
 }

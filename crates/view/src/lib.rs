@@ -33,7 +33,7 @@ pub use frame::Standing;
 pub use leaf::{leaf_comparison, leaf_sheet};
 pub use params::{Background, Ground, Look, Normals, Scale, Shading, ViewParams};
 pub use render::{render, render_among};
-pub use sheet::{Panel, bake_sheet, comparison, contact_sheet, light_sheet};
+pub use sheet::{Panel, bake_sheet, channel_sheet, comparison, contact_sheet, light_sheet};
 pub use sway::{FRAME_S, sway_sheet, swaying};
 
 use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png};

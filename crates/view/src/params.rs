@@ -105,8 +105,9 @@ pub struct ViewParams {
     pub line_detail_px: f64,
     /// Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.
     pub neighbor: Vec<String>,
-    /// Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`; `role`
-    /// shows what each part was taken for.
+    /// Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`;
+    /// `_WIND_WEIGHTS[2]` shows its third number alone, `role` what each part was taken for, `petiole-length` how long
+    /// leaves hang.
     pub channel: Option<String>,
     /// Where the camera stands around the tree, degrees.
     #[schemars(range(min = -360.0, max = 360.0))]
@@ -117,6 +118,13 @@ pub struct ViewParams {
     /// Vertical opening of the camera, degrees.
     #[schemars(range(min = 1.0, max = 120.0))]
     pub fov_deg: f64,
+    /// Point that the camera looks at, `x,y,z` in meters of the scene's rest frame; without one the whole plant is in
+    /// the picture.
+    pub target_m: Option<[f64; 3]>,
+    /// Distance of the camera from the point that it looks at (the plant's center where none is given), meters; without
+    /// one it stands where it would see the whole plant.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub distance_m: Option<f64>,
     /// Where the sun stands around the tree, degrees.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub sun_azimuth_deg: f64,
@@ -150,6 +158,8 @@ impl Default for ViewParams {
             azimuth_deg: 30.0,
             elevation_deg: 10.0,
             fov_deg: 30.0,
+            target_m: None,
+            distance_m: None,
             sun_azimuth_deg: 80.0,
             sun_elevation_deg: 50.0,
             exposure: 1.0,
@@ -213,7 +223,8 @@ impl ViewParams {
             self.line_detail_px,
         ];
         // NaN would become null in JSON, which no range refuses.
-        if numbers.iter().any(|n| !n.is_finite()) {
+        let chosen = self.target_m.iter().flatten().chain(&self.distance_m);
+        if numbers.iter().chain(chosen).any(|n| !n.is_finite()) {
             return Err(ViewError::NotFinite);
         }
         let value = serde_json::to_value(self).unwrap_or_default();

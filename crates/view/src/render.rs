@@ -62,7 +62,7 @@ pub fn render_among(
     params.check()?;
     let right = camera::right(params.azimuth_deg).as_vec3();
     let scene = Scene::new(plant, layers, around, shading, (params.scale == Scale::Person).then_some(right))?;
-    let camera = Camera::fit(scene.fitted.iter().copied(), params);
+    let camera = Camera::fit(scene.fitted.iter().copied(), &scene.frame, params);
     draw(&scene, camera, shading, params)
 }
 
@@ -82,7 +82,8 @@ pub(crate) fn draw(
         _ => Tracer::new(scene, camera, mask, params, shading)?.trace(),
     };
     if params.scale != Scale::None && !scene.fitted.is_empty() {
-        scale::bar(&mut picture, &camera, scene.per_meter);
+        scale::bar(&mut picture, &camera, scene.frame.per_meter());
+        scale::label(&mut picture, scene.head.and_then(|head| camera.project(head)));
     }
     Ok(match &scene.legend {
         Some(words) => legend::below(picture, words),

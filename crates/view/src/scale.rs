@@ -110,9 +110,11 @@ fn round_length(length: f64) -> f64 {
     [5.0, 2.0, 1.0].map(|m| m * power).into_iter().find(|&l| l <= length).unwrap_or(power)
 }
 
-/// Draws the bar into the lower left corner: as long as it would be in the middle of the plant.
+/// Draws the bar into the lower left corner: as long as it would be where the camera looks.
 pub(crate) fn bar(picture: &mut RgbaImage, camera: &Camera, per_meter: f64) {
-    let (Some(a), Some(b)) = (camera.project(Vec3::ZERO), camera.project(camera.right)) else { return };
+    let (Some(a), Some(b)) = (camera.project(camera.focus), camera.project(camera.focus + camera.right)) else {
+        return;
+    };
     let pixels_per_meter = (b - a).length() * per_meter as f32;
     let longest = BAR_SHARE * picture.width() as f32 / pixels_per_meter;
     if !longest.is_normal() {
@@ -135,12 +137,26 @@ pub(crate) fn bar(picture: &mut RgbaImage, camera: &Camera, per_meter: f64) {
     let corner = Vec2::new(left as f32, (low - THICK) as f32);
     dark(picture, corner - 1.0, Vec2::new(long + 2.0, THICK as f32 + 2.0), 245);
     dark(picture, corner, Vec2::new(long, THICK as f32), 20);
-    let words = format!("{} m", text::number(length));
-    let y = low - THICK - 4 - i64::from(text::height(SMALL));
-    for (x, y) in [(left - 1, y), (left + 1, y), (left, y - 1), (left, y + 1)] {
-        text::write(picture, SMALL, x, y, &words, 245);
+    outlined(picture, left, low - THICK - 4 - i64::from(text::height(SMALL)), &format!("{} m", text::number(length)));
+}
+
+/// Writes the person's height above its head, where that is in the picture.
+pub(crate) fn label(picture: &mut RgbaImage, head: Option<Vec2>) {
+    let words = format!("{PERSON_M} m");
+    let size = Vec2::new(text::width(SMALL, &words) as f32, text::height(SMALL) as f32);
+    let all = Vec2::new(picture.width() as f32, picture.height() as f32);
+    let Some(corner) = head.map(|head| head - Vec2::new(size.x / 2.0, size.y + 4.0)) else { return };
+    if corner.cmpge(Vec2::ZERO).all() && (corner + size).cmple(all).all() {
+        outlined(picture, corner.x as i64, corner.y as i64, &words);
     }
-    text::write(picture, SMALL, left, y, &words, 20);
+}
+
+/// Dark words with a light rim.
+fn outlined(picture: &mut RgbaImage, left: i64, top: i64, words: &str) {
+    for (x, y) in [(left - 1, top), (left + 1, top), (left, top - 1), (left, top + 1)] {
+        text::write(picture, SMALL, x, y, words, 245);
+    }
+    text::write(picture, SMALL, left, top, words, 20);
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ const FARTHEST_OTHER: f64 = 30.0;
 const BARK: Vec3 = Vec3::new(0.13, 0.085, 0.055);
 const FOLIAGE: Vec3 = Vec3::new(0.10, 0.17, 0.04);
 /// Linear color of a person.
-const CLAY: Vec3 = Vec3::splat(0.3);
+const CLAY: Vec3 = Vec3::new(0.10, 0.105, 0.115);
 /// Gray from here on is taken for a color that nobody chose (Blender's own default is 0.8, many MTLs hold
 /// it as sRGB: 0.6).
 const LEAST_UNSET: f32 = 0.55;
@@ -115,8 +115,10 @@ pub(crate) struct Scene<'a> {
     pub fitted: Vec<Vec3>,
     /// Lowest point that is drawn.
     pub floor: f32,
-    /// A meter in the picture's frame.
-    pub per_meter: f64,
+    /// Top of the person's head, where one stands there.
+    pub head: Option<Vec3>,
+    /// From the plant's rest frame to the picture's.
+    pub frame: Frame,
     pub legend: Option<Legend>,
     faces: Vec<Face>,
     vertices: Vec<Vertex>,
@@ -162,7 +164,8 @@ impl<'a> Scene<'a> {
             triangles: Vec::new(),
             fitted: Vec::new(),
             floor: 0.0,
-            per_meter: 1.0,
+            head: None,
+            frame: *frame,
             legend: None,
             faces: Vec::new(),
             vertices: Vec::new(),
@@ -184,8 +187,7 @@ impl<'a> Scene<'a> {
             let own: Vec<&Layer> = other.layers.iter().collect();
             scene.add(&other.plant, &own, shading, &frame, gray.as_deref())?;
         }
-        scene.per_meter = frame.per_meter();
-        if let Some(person) = person.and_then(|right| scale::person(&scene.fitted, right, scene.per_meter)) {
+        if let Some(person) = person.and_then(|right| scale::person(&scene.fitted, right, frame.per_meter())) {
             scene.add_person(person);
         }
         scene.floor = scene.triangles.iter().flatten().map(|p| p.y).reduce(f32::min).unwrap_or_default();
@@ -272,6 +274,7 @@ impl<'a> Scene<'a> {
             self.triangles.push(corners.map(|c| person.points[c as usize]));
             self.faces.push(Face { corners: corners.map(|c| first + c), skin });
         }
+        self.head = person.points.iter().copied().max_by(|a, b| a.y.total_cmp(&b.y));
         self.fitted.extend(person.points);
     }
 

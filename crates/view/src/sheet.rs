@@ -15,6 +15,9 @@ const PATHS_PER_SAMPLE: u32 = 8;
 /// Behind the pictures.
 const PAPER: Rgba<u8> = Rgba([28, 28, 30, 255]);
 
+/// Width of the pictures of a sheet of everything, pixels: a legend fits below.
+const LEAST_SMALL: u32 = 320;
+
 /// One picture of a sheet.
 #[derive(Clone, Debug)]
 pub struct Panel {
@@ -80,16 +83,43 @@ pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
     if let Some(caption) = ambient_figures(plant, layers)? {
         panels.push(Panel::new(caption, render(plant, layers, &Shading::Channel(names::AMBIENT.into()), params)?));
     }
+    Ok(contact_sheet(&panels, &[title.into(), facts(plant)], 2))
+}
+
+fn facts(plant: &Plant) -> String {
     let triangles: usize = plant.parts().iter().map(|p| p.triangles.len()).sum();
     let size = plant.size();
-    let facts = format!(
+    format!(
         "{} leaves, {triangles} triangles, {} x {} x {} m",
         plant.leaves().len(),
         text::number(size.x as f32),
         text::number(size.y as f32),
         text::number(size.z as f32)
-    );
-    Ok(contact_sheet(&panels, &[title.into(), facts], 2))
+    )
+}
+
+/// Everything that the file holds: the lit plant, then roles, channels and columns in false colors, each with its
+/// legend; pictures are a third as large as `params` says.
+///
+/// # Errors
+/// As [`render`].
+pub fn channel_sheet(
+    plant: &Plant,
+    layers: &[&Layer],
+    title: &str,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
+    let small = ViewParams {
+        width_px: (params.width_px / 3).max(LEAST_SMALL),
+        height_px: (params.height_px / 3).max(LEAST_SMALL * 3 / 4),
+        ..params.clone()
+    };
+    let mut panels = vec![Panel::new("baked", render(plant, layers, &Shading::Baked, &small)?)];
+    for name in values::shown_names(plant, layers, false) {
+        let shown = render(plant, layers, &Shading::Channel(name.clone()), &small)?;
+        panels.push(Panel::new(name, shown));
+    }
+    Ok(contact_sheet(&panels, &[title.into(), facts(plant)], 4))
 }
 
 /// One tree in the light of two suns: by the model, by paths, and what differs. `params.look` does not count; the second

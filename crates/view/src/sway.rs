@@ -47,7 +47,8 @@ pub fn swaying(
     let scenes = scenes?;
     // One camera for all, or the plant would stand still and the world sway.
     let points: Vec<Vec3> = scenes.iter().flat_map(|scene| scene.fitted.iter().copied()).collect();
-    let draw = |scene: &Scene| render::draw(scene, Camera::fit(points.iter().copied(), params), shading, params);
+    let camera = Camera::fit(points.iter().copied(), &frame, params);
+    let draw = |scene: &Scene| render::draw(scene, camera, shading, params);
     scenes.iter().map(draw).collect()
 }
 

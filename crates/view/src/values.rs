@@ -28,8 +28,10 @@ pub(crate) enum Key {
     Diverging(f32),
     /// [`colors::of_direction`].
     Direction,
-    /// Components as red, green and blue over the box that the values fill.
-    Box,
+    /// Components as red, green and blue, each over its range: names, least and greatest.
+    Box([&'static str; 3], [f32; 3], [f32; 3]),
+    /// [`colors::ramp`] over whole numbers, from the first to the second.
+    Steps(i32, i32),
     /// [`colors::of_id`]; so many ids.
     Ids(usize),
     /// [`colors::of_role`].
@@ -68,24 +70,40 @@ pub(crate) fn ambient<'a>(plant: &Plant, layers: &[&'a Layer]) -> Result<Vec<Opt
     attribute(plant, layers, names::AMBIENT, 1)
 }
 
-/// A channel or column in false colors.
+/// A channel or column in false colors; `NAME[2]` is its third number alone.
 pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Result<FalseColors, ViewError> {
     let plain = |s: &str| s.trim_start_matches('_').to_ascii_lowercase();
-    let wanted = plain(name);
-    if wanted == ROLE {
+    let refuse = || ViewError::Channel { name: name.into(), known: shown_names(plant, layers, true).join(", ") };
+    let (whole, component) = split(name).ok_or_else(refuse)?;
+    let wanted = plain(whole);
+    if component.is_none() && wanted == ROLE {
         return Ok(of_roles(plant));
+    }
+    if component.is_none() && wanted == PETIOLE_LENGTH && !plant.leaves().is_empty() {
+        return Ok(of_petioles(plant));
     }
     let channels = layers.iter().flat_map(|layer| layer.attributes.keys()).map(|key| key.name.as_str());
     if let Some(info) = channels.filter_map(channel).find(|info| plain(info.name) == wanted) {
-        return of_channel(plant, layers, info);
+        return match component {
+            Some(c) if c >= info.width => Err(refuse()),
+            _ => of_channel(plant, layers, info, component),
+        };
     }
-    let mut columns = layers.iter().flat_map(|layer| &layer.columns);
     let is_wanted =
         |class: &str, property: &str| plain(property) == wanted || plain(&format!("{class}/{property}")) == wanted;
-    let drawn = [names::CLASS_LEAF, names::CLASS_BRANCH, names::CLASS_WIND];
-    match columns.find(|(key, _)| drawn.contains(&key.class.as_str()) && is_wanted(&key.class, &key.property)) {
-        Some((key, array)) => of_column(plant, &key.class, &key.property, array),
-        None => Err(ViewError::Channel { name: name.into(), known: known(layers) }),
+    let mut columns = layers.iter().flat_map(|layer| &layer.columns).filter(|(key, _)| is_drawn(plant, &key.class));
+    match columns.find(|(key, _)| is_wanted(&key.class, &key.property)) {
+        Some((_, array)) if component.is_some_and(|c| c >= array.width()) => Err(refuse()),
+        Some((key, array)) => of_column(plant, &key.class, &key.property, array, component),
+        None => Err(refuse()),
+    }
+}
+
+/// A name and the number of it that is asked for; nothing where the brackets hold no number.
+fn split(name: &str) -> Option<(&str, Option<usize>)> {
+    match name.split_once('[') {
+        None => Some((name, None)),
+        Some((whole, rest)) => Some((whole, Some(rest.strip_suffix(']')?.trim().parse().ok()?))),
     }
 }
 
@@ -111,7 +129,30 @@ pub(crate) fn leaf_column<'a>(
 }
 
 /// Asked for in place of a channel: what each part was taken for.
-const ROLE: &str = "role";
+pub(crate) const ROLE: &str = "role";
+/// The same: how far the leaf's center is from where it hangs.
+const PETIOLE_LENGTH: &str = "petiole-length";
+
+/// Whether rows of a class belong to leaves or branches, which can be drawn.
+fn is_drawn(plant: &Plant, class: &str) -> bool {
+    match class {
+        names::CLASS_AXIS => false,
+        _ if of_leaves(class) => !plant.leaves().is_empty(),
+        _ => plant.branches().is_some(),
+    }
+}
+
+/// Tables hold a row per leaf, but for those of branches.
+fn of_leaves(class: &str) -> bool {
+    !matches!(class, names::CLASS_BRANCH | names::CLASS_WIND)
+}
+
+fn of_petioles(plant: &Plant) -> FalseColors {
+    let lengths: Vec<f32> = plant.leaves().iter().map(|leaf| (leaf.center - leaf.petiole).length()).collect();
+    let doc = "distance of the leaf's center from where it hangs".into();
+    let legend = |kind| Legend { name: PETIOLE_LENGTH.into(), doc, unit: "m".into(), kind };
+    scalars(&rows_of(plant, &lengths, 1, true), None, legend)
+}
 
 fn of_roles(plant: &Plant) -> FalseColors {
     let part = |(index, part): (usize, &Part)| vec![colors::of_role(plant.role(index)); part.positions.len()];
@@ -120,19 +161,30 @@ fn of_roles(plant: &Plant) -> FalseColors {
     FalseColors { colors: plant.parts().iter().enumerate().map(part).collect(), legend }
 }
 
-fn known(layers: &[&Layer]) -> String {
-    let mut names: Vec<String> =
-        layers.iter().flat_map(|layer| layer.attributes.keys().map(|k| k.name.clone())).collect();
-    names.extend(layers.iter().flat_map(|l| l.columns.keys().map(|k| format!("{}/{}", k.class, k.property))));
-    names.push(ROLE.into());
-    names.sort();
-    names.dedup();
-    names.join(", ")
+/// Everything that can be shown, roles first; where several numbers belong to a name, `counted` says which there are.
+pub(crate) fn shown_names(plant: &Plant, layers: &[&Layer], counted: bool) -> Vec<String> {
+    let numbered = |name: String, width: usize| {
+        if counted && width > 1 { format!("{name} (and {name}[0] to [{}])", width - 1) } else { name }
+    };
+    let attributes = layers.iter().flat_map(|layer| &layer.attributes);
+    let mut names: Vec<String> = attributes.map(|(key, array)| numbered(key.name.clone(), array.width())).collect();
+    let columns = layers.iter().flat_map(|l| &l.columns).filter(|(key, _)| is_drawn(plant, &key.class));
+    names.extend(columns.map(|(k, array)| numbered(format!("{}/{}", k.class, k.property), array.width())));
+    names.extend((!plant.leaves().is_empty()).then(|| PETIOLE_LENGTH.into()));
+    let mut seen = std::collections::BTreeSet::new();
+    let once = std::iter::once(ROLE.to_string()).chain(names);
+    once.filter(|name| seen.insert(name.clone())).collect()
 }
 
-fn of_channel(plant: &Plant, layers: &[&Layer], info: &Channel) -> Result<FalseColors, ViewError> {
+fn of_channel(
+    plant: &Plant,
+    layers: &[&Layer],
+    info: &Channel,
+    component: Option<usize>,
+) -> Result<FalseColors, ViewError> {
     let arrays = attribute(plant, layers, info.name, info.width)?;
-    let legend = |kind| Legend { name: info.name.into(), doc: info.doc.into(), unit: info.unit.into(), kind };
+    let legend =
+        |kind| Legend { name: numbered(info.name, component), doc: info.doc.into(), unit: info.unit.into(), kind };
     let is_id = info.step_unit == "id";
     let rows: Vec<Vec<Option<&[f32]>>> = plant
         .parts()
@@ -142,15 +194,24 @@ fn of_channel(plant: &Plant, layers: &[&Layer], info: &Channel) -> Result<FalseC
             (0..part.positions.len()).map(|v| array.map(|a| &a[v * info.width..][..info.width])).collect()
         })
         .collect();
+    // The ramp spans what a channel may be, or what it is where that has no end.
+    let range = (info.max < f32::MAX && info.min > f32::MIN).then_some((info.min, info.max));
+    if let Some(c) = component {
+        return Ok(scalars(
+            &only(&rows, c),
+            range.filter(|_| !info.unit_length).or(UNIT.filter(|_| info.unit_length)),
+            legend,
+        ));
+    }
     let mut shown = if is_id {
         ids(&rows, plant.leaves().len(), legend)
     } else if info.width == 4 {
-        // Levels of branches: the stem's own sway is what all have.
-        boxed(&rows.iter().map(|part| part.iter().map(|row| row.map(|r| &r[1..])).collect()).collect(), legend)
+        let others = rows.iter().map(|part| part.iter().map(|row| row.map(|r| &r[1..])).collect()).collect();
+        boxed(&others, LEVELS, legend)
     } else if info.unit_length {
         paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
     } else {
-        scalars(&rows, Some((info.min, info.max)), legend)
+        scalars(&rows, range, legend)
     };
     if info.unit_length {
         to_rest(plant, &rows, &mut shown);
@@ -170,8 +231,14 @@ fn to_rest(plant: &Plant, rows: &Rows, shown: &mut FalseColors) {
     }
 }
 
-fn of_column(plant: &Plant, class: &str, property: &str, array: &Array) -> Result<FalseColors, ViewError> {
-    let of_leaf = class == names::CLASS_LEAF;
+fn of_column(
+    plant: &Plant,
+    class: &str,
+    property: &str,
+    array: &Array,
+    component: Option<usize>,
+) -> Result<FalseColors, ViewError> {
+    let of_leaf = of_leaves(class);
     let expected =
         if of_leaf { plant.leaves().len() } else { plant.branches().map_or(0, foliar_plant::Branches::count) };
     if array.rows() != expected {
@@ -186,26 +253,37 @@ fn of_column(plant: &Plant, class: &str, property: &str, array: &Array) -> Resul
     let width = array.width();
     let integers: Option<Vec<f32>> = array.as_i32().map(|data| data.iter().map(|&i| i as f32).collect());
     let data = array.as_f32().or(integers.as_deref()).unwrap_or_default();
-    let id = |part, v| if of_leaf { plant.leaf_of(part, v) } else { branch_of(plant, part, v) };
-    let row = |part, v| id(part, v).map(|id| &data[id as usize * width..][..width]);
-    let rows: Vec<Vec<Option<&[f32]>>> = plant
-        .parts()
-        .iter()
-        .enumerate()
-        .map(|(index, part)| (0..part.positions.len()).map(|v| row(index, v)).collect())
-        .collect();
+    let rows = rows_of(plant, data, width, of_leaf);
     let info = column(class, property);
     let (unit, doc) = info.map_or(("", ""), |c| (c.unit, c.doc));
-    let legend = |kind| Legend { name: format!("{class}/{property}"), doc: doc.into(), unit: unit.into(), kind };
-    Ok(match width {
-        1 if unit.contains("id") => ids(&rows, usize::MAX, legend),
-        1 => scalars(&rows, None, legend),
-        3 if unit.starts_with("unit vector") => {
+    let name = numbered(&format!("{class}/{property}"), component);
+    let legend = |kind| Legend { name, doc: doc.into(), unit: unit.into(), kind };
+    let is_id = ["id", "row of", "rows of"].iter().any(|word| unit.contains(word));
+    Ok(match component {
+        Some(c) if is_id => ids(&only(&rows, c), usize::MAX, legend),
+        Some(c) => scalars(&only(&rows, c), None, legend),
+        None if is_id => ids(&only(&rows, 0), usize::MAX, legend),
+        None if width == 3 && unit.starts_with("unit vector") => {
             paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
         }
-        3 => boxed(&rows, legend),
-        _ => scalars(&first_only(&rows), None, legend),
+        None if width == 3 => boxed(&rows, AXES, legend),
+        None if integers.is_some() => whole_numbers(&rows, legend),
+        None if width == 1 => scalars(&rows, None, legend),
+        // The first stands for all, and says so.
+        None => return of_column(plant, class, property, array, Some(0)),
     })
+}
+
+/// The row of a table that each vertex belongs to.
+fn rows_of<'a>(plant: &Plant, data: &'a [f32], width: usize, of_leaf: bool) -> Rows<'a> {
+    let id = |part, v| if of_leaf { plant.leaf_of(part, v) } else { branch_of(plant, part, v) };
+    let row = |part, v| id(part, v).map(|id| &data[id as usize * width..][..width]);
+    let part = |(index, part): (usize, &Part)| (0..part.positions.len()).map(|v| row(index, v)).collect();
+    plant.parts().iter().enumerate().map(part).collect()
+}
+
+fn numbered(name: &str, component: Option<usize>) -> String {
+    component.map_or_else(|| name.into(), |c| format!("{name}[{c}]"))
 }
 
 /// Branch of a vertex of wood, or of a leaf's.
@@ -220,8 +298,18 @@ fn branch_of(plant: &Plant, part: usize, vertex: usize) -> Option<u32> {
 
 type Rows<'a> = Vec<Vec<Option<&'a [f32]>>>;
 
-fn first_only<'a>(rows: &Rows<'a>) -> Rows<'a> {
-    rows.iter().map(|part| part.iter().map(|row| row.map(|r| &r[..1])).collect()).collect()
+/// Whole numbers that a legend shows one by one span at most so much.
+const MOST_STEPS: f32 = 12.0;
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+/// The stem's own sway, level 0, is what all have: the others are shown.
+const LEVELS: [&str; 3] = ["1:", "2:", "3:"];
+/// Components of a unit vector.
+const UNIT: Option<(f32, f32)> = Some((-1.0, 1.0));
+
+/// One number of each row.
+fn only<'a>(rows: &Rows<'a>, component: usize) -> Rows<'a> {
+    let one = |row: &Option<&'a [f32]>| row.map(|r| &r[component..=component]);
+    rows.iter().map(|part| part.iter().map(one).collect()).collect()
 }
 
 fn paint(rows: &Rows, legend: Legend, color: impl Fn(&[f32]) -> Vec3) -> FalseColors {
@@ -229,7 +317,7 @@ fn paint(rows: &Rows, legend: Legend, color: impl Fn(&[f32]) -> Vec3) -> FalseCo
     FalseColors { colors: rows.iter().map(|part| part.iter().map(vertex).collect()).collect(), legend }
 }
 
-fn scalars(rows: &Rows, range: Option<(f32, f32)>, legend: impl Fn(Key) -> Legend) -> FalseColors {
+fn scalars(rows: &Rows, range: Option<(f32, f32)>, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
     let (low, high) = range.unwrap_or_else(|| {
         let (low, high) = extent(rows);
         (low[0], high[0])
@@ -238,16 +326,26 @@ fn scalars(rows: &Rows, range: Option<(f32, f32)>, legend: impl Fn(Key) -> Legen
     paint(rows, legend(Key::Ramp(low, high)), |v| colors::ramp((v[0] - low) / span))
 }
 
-fn boxed(rows: &Rows, legend: impl Fn(Key) -> Legend) -> FalseColors {
+/// Whole numbers that are few enough to be told apart; else as [`scalars`].
+fn whole_numbers(rows: &Rows, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
+    let (low, high) = extent(rows);
+    let (low, high) = (low[0], high[0]);
+    if high - low > MOST_STEPS || high <= low {
+        return scalars(rows, None, legend);
+    }
+    paint(rows, legend(Key::Steps(low as i32, high as i32)), |v| colors::ramp((v[0] - low) / (high - low)))
+}
+
+fn boxed(rows: &Rows, names: [&'static str; 3], legend: impl FnOnce(Key) -> Legend) -> FalseColors {
     let (low, high) = extent(rows);
     let span: [f32; 3] = std::array::from_fn(|c| if high[c] > low[c] { high[c] - low[c] } else { 1.0 });
-    paint(rows, legend(Key::Box), |v| {
+    paint(rows, legend(Key::Box(names, low, high)), |v| {
         Vec3::from_array(std::array::from_fn(|c| colors::to_linear(((v[c] - low[c]) / span[c]).clamp(0.0, 1.0))))
     })
 }
 
 /// Ids from `none` on mean no value.
-fn ids(rows: &Rows, none: usize, legend: impl Fn(Key) -> Legend) -> FalseColors {
+fn ids(rows: &Rows, none: usize, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
     let all = rows.iter().flatten().flatten().map(|v| v[0] as i64 as usize).filter(|&id| id < none);
     let count = all.collect::<std::collections::BTreeSet<_>>().len();
     paint(rows, legend(Key::Ids(count)), |v| {

@@ -15,7 +15,7 @@ const TOP: [&str; 10] = [
 ];
 
 /// Hosts that texts may name: where a standard or a paper lives, and those reserved for examples.
-const HOSTS: [&str; 9] = [
+const HOSTS: [&str; 11] = [
     "json-schema.org",
     "json.schemastore.org",
     "doi.org",
@@ -25,6 +25,8 @@ const HOSTS: [&str; 9] = [
     "example.com",
     "example.org",
     "example.invalid",
+    "localhost",
+    "127.0.0.1",
 ];
 
 /// Starts of paths that exist on one machine only.

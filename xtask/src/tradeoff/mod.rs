@@ -15,6 +15,7 @@ mod rungs;
 mod scores;
 mod subsets;
 mod tables;
+mod time;
 mod translucency;
 pub mod trees;
 mod wind;
@@ -35,8 +36,9 @@ pub fn run(name: Option<&str>) -> Result<()> {
         Some("light") => engines::run().and_then(|()| light_model::run()),
         Some("light-model") => light_model::run(),
         Some("translucency") => translucency::run(),
+        Some("time") => time::run(),
         _ => bail!(
-            "there are comparisons of density, wind, light, light-model and translucency: cargo xtask tradeoff density"
+            "there are comparisons of density, wind, light, light-model and translucency, and time: cargo xtask tradeoff density"
         ),
     }
 }
@@ -58,7 +60,7 @@ fn density() -> Result<()> {
         format!("### Trees\n\n{}", tables::trees(&judged)),
         format!("### Ambient terms\n\n{}", tables::ambient(&judged)),
         format!("### Normals\n\n{}", tables::normals(&judged)),
-        format!("### Accuracy and time, {}\n\n{}", trees::FIRST, tables::rungs(&rungs::climb(first)?)),
+        format!("### Accuracy and time, {}\n\n{}", trees::FIRST, tables::rungs(&rungs::climb(first, |_| true)?)),
         format!("### Fewer generators, {}\n\n{}", trees::FIRST, tables::subsets(&subsets::compare(first)?)),
     ]
     .join("\n");

@@ -78,6 +78,31 @@ pub fn rungs(rungs: &[RungScore]) -> String {
     table(&head, rungs.iter().map(row))
 }
 
+/// Time against error: tree, leaves, rung.
+pub fn times(rows: &[(&str, usize, RungScore)]) -> String {
+    let error = |steps: Option<f64>| steps.map_or("-".into(), |steps| format!("{steps:.2}"));
+    let row = |(tree, leaves, rung): &(&str, usize, RungScore)| {
+        let promise = format!("{}", rung.promise);
+        vec![
+            (*tree).into(),
+            leaves.to_string(),
+            promise,
+            error(rung.ambient),
+            error(rung.normal),
+            seconds(rung.seconds),
+        ]
+    };
+    let head = [
+        "tree",
+        "leaves",
+        "promised (`quality`)",
+        "ambient term is off by, 1/255",
+        "normals by, degrees",
+        "processor s",
+    ];
+    table(&head, rows.iter().map(row))
+}
+
 /// Fewer generators.
 pub fn subsets(subsets: &[Subset]) -> String {
     let row = |subset: &Subset| {

@@ -11,12 +11,14 @@ use crate::notes::{KEPT, PROPERTIES, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
 pub(crate) use builder::{Builder, Content, primitive_mut};
 pub(crate) use check::vertices as vertices_of;
-pub(crate) use textures::{Encoded, encode_map, shown_of};
 use foliar_bake::Layer;
 use foliar_plant::Place;
-use foliar_schema::{CONTRACT, Finding, FoliageExtension, PrimitiveExtension, ROOMS, Record, Role, SheetLinks, code, names};
+use foliar_schema::{
+    CONTRACT, Finding, FoliageExtension, PrimitiveExtension, ROOMS, Record, Role, SheetLinks, code, names,
+};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
+pub(crate) use textures::{Encoded, encode_map, shown_of};
 
 /// Program and version that assembled the file.
 const GENERATOR: &str = concat!("foliar ", env!("CARGO_PKG_VERSION"));

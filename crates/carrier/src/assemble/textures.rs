@@ -30,10 +30,7 @@ pub(crate) struct Encoded {
 }
 
 /// Writes the maps of all layers; gives the links for the root extension.
-pub(super) fn write(
-    builder: &mut Builder,
-    layers: &[&Layer],
-) -> Result<BTreeMap<String, SheetLinks>, CarrierError> {
+pub(super) fn write(builder: &mut Builder, layers: &[&Layer]) -> Result<BTreeMap<String, SheetLinks>, CarrierError> {
     let mut links = BTreeMap::new();
     for layer in layers.iter().filter(|layer| layer.record.room == names::ROOM_TRANSLUCENCY) {
         for (sheet, rasters) in sheets(layer) {
@@ -163,7 +160,8 @@ fn color(
         add_texture(builder, &texture, picture, mime, users.first().copied())?;
         return Ok(Some(ColorLink { estimate: false, factor: [1.0; 3], texture: Some(texture) }));
     }
-    let factor: Option<Vec<f64>> = facts["colorEstimate"].as_array().map(|a| a.iter().filter_map(Value::as_f64).collect());
+    let factor: Option<Vec<f64>> =
+        facts["colorEstimate"].as_array().map(|a| a.iter().filter_map(Value::as_f64).collect());
     let factor = factor.and_then(|factor| <[f64; 3]>::try_from(factor).ok());
     Ok(factor.map(|factor| ColorLink { estimate: true, factor, texture: None }))
 }
@@ -235,7 +233,8 @@ impl Builder {
     /// The extensions of a material, made where there are none.
     fn material_extensions(&mut self, material: usize) -> Result<&mut Map<String, Value>, CarrierError> {
         let pointer = format!("/materials/{material}");
-        let fail = || CarrierError::input("base", pointer.clone(), "is no object, or its extensions are none", EXPORT_AGAIN);
+        let fail =
+            || CarrierError::input("base", pointer.clone(), "is no object, or its extensions are none", EXPORT_AGAIN);
         let list = self.document.json.get_mut("materials").and_then(|list| list.get_mut(material));
         let object = list.and_then(Value::as_object_mut).ok_or_else(fail)?;
         if !object.contains_key("extensions") {

@@ -4,8 +4,8 @@
 mod data;
 mod maps;
 
-pub use data::{DataMap, read_map};
 pub(crate) use data::read_exr;
+pub use data::{DataMap, read_map};
 pub(crate) use maps::{alpha_joined, is_normal_map, normals_from_heights};
 
 use crate::CarrierError;

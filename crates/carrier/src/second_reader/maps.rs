@@ -118,9 +118,10 @@ type Texels = ((usize, usize), Vec<[f32; 4]>);
 /// R, G, B and A of an EXR.
 fn exact(file: &Path) -> Result<Texels, String> {
     let make = |size: exr::math::Vec2<usize>, _: &_| (size.x(), vec![[0.0f32; 4]; size.x() * size.y()]);
-    let set = |(width, texels): &mut (usize, Vec<[f32; 4]>), at: exr::math::Vec2<usize>, texel: (f32, f32, f32, f32)| {
-        texels[at.y() * *width + at.x()] = texel.into();
-    };
+    let set =
+        |(width, texels): &mut (usize, Vec<[f32; 4]>), at: exr::math::Vec2<usize>, texel: (f32, f32, f32, f32)| {
+            texels[at.y() * *width + at.x()] = texel.into();
+        };
     let image = read_first_rgba_layer_from_file(file, make, set).map_err(|e| e.to_string())?;
     let size = image.layer_data.size;
     Ok(((size.x(), size.y()), image.layer_data.channel_data.pixels.1))

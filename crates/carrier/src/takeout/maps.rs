@@ -53,8 +53,7 @@ impl MapReader<'_> {
         let Some(file) = [named, own].into_iter().find(|file| file.is_file()) else { return Ok(None) };
         let name = file.display().to_string();
         let remedy = "make it readable, or run foliar rebake".to_owned();
-        let bytes =
-            std::fs::read(&file).map_err(|source| CarrierError::Open { file: name.clone(), source, remedy })?;
+        let bytes = std::fs::read(&file).map_err(|source| CarrierError::Open { file: name.clone(), source, remedy })?;
         let raster = images::read_exr(&bytes, &name)?;
         self.files.borrow_mut().push(file);
         Ok(Some(raster))

@@ -90,8 +90,13 @@ fn is_named_ours(item: &Value) -> bool {
 
 /// Takes diffuse transmission out of materials where its texture is foliar's.
 fn strip_materials(document: &mut Document) {
-    let ours: BTreeSet<usize> =
-        document.list("textures").iter().enumerate().filter(|(_, t)| is_named_ours(t)).map(|(index, _)| index).collect();
+    let ours: BTreeSet<usize> = document
+        .list("textures")
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| is_named_ours(t))
+        .map(|(index, _)| index)
+        .collect();
     let materials = document.json.get_mut("materials").and_then(Value::as_array_mut);
     for material in materials.into_iter().flatten() {
         let Some(extensions) = material.get_mut("extensions").and_then(Value::as_object_mut) else { continue };

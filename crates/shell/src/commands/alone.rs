@@ -1,6 +1,7 @@
 //! A room that lives on maps, without a tree: maps in, EXR and PNG out.
 
 use super::Call;
+use crate::Failure;
 use crate::config::Settings;
 use crate::flags::Direct;
 use crate::gather::Sources;
@@ -9,7 +10,6 @@ use crate::options::{Mode, Options, is_dash};
 use crate::outputs::{self, Job};
 use crate::progress::Bar;
 use crate::runner::{self, Product};
-use crate::Failure;
 use foliar_bake::{Baker, Inputs, Layer, Request};
 use foliar_carrier::OutputFile;
 use foliar_schema::names;
@@ -30,7 +30,8 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
         let gathering = Gathering { fields: call.fields, settings: &settings, input: Path::new(""), plant: None };
         let own = entries.get(room).cloned().unwrap_or_default();
         if let Some(missing) = baker.needs().maps.iter().find(|map| !own.iter().any(|entry| entry.is(map))) {
-            let text = format!("{room} needs a map of {missing}: give it with --{missing} FILE; for a tree name the tree too");
+            let text =
+                format!("{room} needs a map of {missing}: give it with --{missing} FILE; for a tree name the tree too");
             return Err(Failure::usage(text));
         }
         if options.mode == Mode::DryRun {
@@ -62,7 +63,9 @@ fn output(options: &Options, room: &str) -> Result<PathBuf, Failure> {
         return Err(Failure::usage(format!("-d and --picture are for trees: name a tree, or say -o {room}.exr")));
     }
     let Some(output) = &options.output else {
-        return Err(Failure::usage(format!("where to? say -o leaf.exr, or name the tree that the maps go onto; {endings}")));
+        return Err(Failure::usage(format!(
+            "where to? say -o leaf.exr, or name the tree that the maps go onto; {endings}"
+        )));
     };
     let ending = output.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
     match ending.as_deref() {

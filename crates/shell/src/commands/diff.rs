@@ -90,6 +90,9 @@ fn words(differences: &[Difference], parameters: &[String], tolerance: f64) -> S
         let [rms, p999, max] = [d.rms_steps, d.p999_steps, d.max_steps].map(number);
         cells.push([d.room.clone(), d.name.clone(), d.count.to_string(), rms, p999, max, verdict]);
     }
+    if differences.is_empty() {
+        return "neither file holds a layer: there is nothing to compare; bake them first".into();
+    }
     let mut text = columns(&cells);
     for d in differences.iter().filter(|d| d.exceeds(tolerance)) {
         for spot in &d.worst {

@@ -10,7 +10,7 @@ use crate::runner::{self, Product};
 use crate::{Failure, load, plan};
 use foliar_bake::{Array, Layer};
 use foliar_plant::Base;
-use foliar_schema::names;
+use foliar_schema::{channel, column, names};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -82,9 +82,12 @@ fn parts(base: &Base, structure: Option<&Layer>) -> Vec<Value> {
 fn room(layer: &Layer) -> Value {
     let attributes = layer.attributes.iter().map(|(key, array)| {
         let place = format!("mesh {} primitive {}", key.place.mesh, key.place.primitive);
-        statistics(&key.name, &place, array)
+        statistics(&key.name, &place, channel(&key.name).map_or("", |info| info.unit), array)
     });
-    let columns = layer.columns.iter().map(|(key, array)| statistics(&key.property, &key.class, array));
+    let columns = layer.columns.iter().map(|(key, array)| {
+        let unit = column(&key.class, &key.property).map_or("", |info| info.unit);
+        statistics(&key.property, &key.class, unit, array)
+    });
     json!({
         "room": layer.record.room,
         "record": layer.record,
@@ -92,15 +95,34 @@ fn room(layer: &Layer) -> Value {
     })
 }
 
-fn statistics(name: &str, place: &str, array: &Array) -> Value {
+fn statistics(name: &str, place: &str, unit: &str, array: &Array) -> Value {
     let values: Vec<f64> = match array {
         Array::F32 { data, .. } => data.iter().copied().map(f64::from).collect(),
         Array::I32 { data, .. } => data.iter().copied().map(f64::from).collect(),
     };
+    let width = array.width();
+    let mut told = spread(&values);
+    if width > 1 {
+        let one = |c: usize| spread(&values.iter().skip(c).step_by(width).copied().collect::<Vec<_>>());
+        told["components"] = (0..width).map(one).collect();
+    }
+    for (key, value) in [
+        ("name", json!(name)),
+        ("place", json!(place)),
+        ("unit", json!(unit)),
+        ("rows", json!(array.rows())),
+        ("width", json!(width)),
+    ] {
+        told[key] = value;
+    }
+    told
+}
+
+/// Least, mean and greatest of numbers; of none JSON says null.
+fn spread(values: &[f64]) -> Value {
     let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
     let mean = values.iter().copied().collect::<foliar_numerics::CompensatedSum>().value() / values.len() as f64;
-    // An empty array has no least, mean or greatest value: JSON says null.
-    json!({ "name": name, "place": place, "rows": array.rows(), "width": array.width(), "min": low, "mean": mean, "max": high })
+    json!({ "min": low, "mean": mean, "max": high })
 }
 
 fn text(held: &Value) -> String {
@@ -111,19 +133,35 @@ fn text(held: &Value) -> String {
         other => other.to_string(),
     };
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let rows = |items: &[Value], names: [&str; 6]| {
-        let cells = items.iter().map(|item| names.map(|name| word(&item[name])));
+    fn rows<const N: usize>(items: &[Value], names: [&str; N], cell: impl Fn(&Value, &str) -> String) -> String {
+        let cells = items.iter().map(|item| names.map(|name| cell(item, name)));
         plan::columns(&std::iter::once(names.map(String::from)).chain(cells).collect::<Vec<_>>())
+    }
+    let plain = |item: &Value, name: &str| word(&item[name]);
+    // Where several numbers belong together, each has its own.
+    let each = |item: &Value, name: &str| match item["components"].as_array() {
+        Some(all) if ["min", "mean", "max"].contains(&name) => {
+            all.iter().map(|one| word(&one[name])).collect::<Vec<_>>().join(" ")
+        }
+        _ => word(&item[name]),
     };
     let mut text = format!("{}: {} leaves\n", word(&held["file"]), word(&held["leaves"]));
     let parts = list(&held["parts"]);
     if !parts.is_empty() {
-        text.push_str(&rows(&parts, ["name", "role", "mesh", "primitive", "vertices", "triangles"]));
+        text.push_str(&rows(&parts, ["name", "role", "mesh", "primitive", "vertices", "triangles"], plain));
     }
     for room in list(&held["rooms"]) {
         let record = &room["record"];
         text.push_str(&format!("\n{} version {}, given {}\n", word(&room["room"]), record["version"], record["given"]));
-        text.push_str(&rows(&list(&room["channels"]), ["name", "place", "rows", "min", "mean", "max"]));
+        text.push_str(&rows(&list(&room["channels"]), ["name", "place", "rows", "unit", "min", "mean", "max"], each));
+        for error in list(&record["errors"]) {
+            let [rms, p999] = ["rmsSteps", "p999Steps"].map(|key| word(&error[key]));
+            let channel = word(&error["channel"]);
+            text.push_str(&format!(
+                "error of {channel}: rms {rms}, 99.9 % {p999} visible steps ({} places)\n",
+                error["places"]
+            ));
+        }
     }
     text
 }

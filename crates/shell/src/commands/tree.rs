@@ -213,13 +213,20 @@ fn view(command: Command, fields: &Fields) -> Command {
         .arg(flags::inputs("FILE", "OBJ, glTF or GLB file, or a .layer of light through a leaf; - is standard input").num_args(1).required(true))
         .arg(flags::output("Output: .png, or - for standard output").required(true))
         .arg(flags::switch("sheet", "Draws a contact sheet: plain, baked, difference, ambient coefficient; with --look light two suns by model and by paths"))
-        .arg(flags::path("against", "FILE", "Draws FILE beside it, and what differs").conflicts_with("sheet"))
+        .arg(
+            flags::switch("channels", "Draws a contact sheet of everything that the file holds, each with its legend")
+                .conflicts_with("sheet"),
+        )
+        .arg(
+            flags::path("against", "FILE", "Draws FILE beside it, and what differs")
+                .conflicts_with_all(["sheet", "channels"]),
+        )
         .arg(
             Arg::new("turntable")
                 .long("turntable")
                 .value_name("FRAMES")
                 .value_parser(value_parser!(u32).range(2..=720))
-                .conflicts_with_all(["sheet", "against"])
+                .conflicts_with_all(["sheet", "channels", "against"])
                 .help("Draws an animated PNG: the plant turns once in so many pictures, 24 a second"),
         )
         .arg(
@@ -227,7 +234,7 @@ fn view(command: Command, fields: &Fields) -> Command {
                 .long("sway")
                 .value_name("FRAMES")
                 .value_parser(value_parser!(u32).range(1..=720))
-                .conflicts_with_all(["against", "turntable"])
+                .conflicts_with_all(["against", "channels", "turntable"])
                 .help("Draws an animated PNG: the plant in a storm, 24 pictures a second; with --sheet levels, weights, phases and six times"),
         );
     common(command, fields, Direct::Sections(&["view"]), Leaves::Files)

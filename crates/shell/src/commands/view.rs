@@ -80,6 +80,7 @@ fn files(options: &Options) -> Result<(PathBuf, PathBuf), Failure> {
 enum Wanted {
     Picture,
     Sheet,
+    Channels,
     Turntable(u32),
     Sway(u32),
     SwaySheet,
@@ -95,6 +96,7 @@ impl Wanted {
                 Some(_) if matches.get_flag("sheet") => Wanted::SwaySheet,
                 frames => Wanted::Sway(frames.copied().unwrap_or(1)),
             },
+            (None, None) if matches.get_flag("channels") => Wanted::Channels,
             (None, None) if matches.get_flag("sheet") => Wanted::Sheet,
             (None, None) => Wanted::Picture,
         }
@@ -103,7 +105,9 @@ impl Wanted {
     fn name(&self) -> &'static str {
         match self {
             Wanted::Picture => "a picture",
-            Wanted::Sheet | Wanted::SwaySheet | Wanted::Against(_) => "a contact sheet with pictures",
+            Wanted::Sheet | Wanted::Channels | Wanted::SwaySheet | Wanted::Against(_) => {
+                "a contact sheet with pictures"
+            }
             Wanted::Turntable(_) | Wanted::Sway(_) => "an animated picture",
         }
     }
@@ -161,6 +165,7 @@ impl Tree<'_> {
                 foliar_view::light_sheet(plant, layers, &title, params)
             }
             Wanted::Sheet => foliar_view::bake_sheet(plant, layers, &title, params),
+            Wanted::Channels => foliar_view::channel_sheet(plant, layers, &title, params),
             Wanted::SwaySheet => foliar_view::sway_sheet(plant, layers, &title, params),
             _ => foliar_view::render_among(plant, layers, self.around, &shading, params),
         };

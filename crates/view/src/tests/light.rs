@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::camera::{self, Camera};
+use crate::frame::Frame;
 use crate::{Shading, colors, legend, render, shade};
 
 const FULL: Vec3 = Vec3::ONE;
@@ -109,7 +110,7 @@ fn a_shadow_falls_where_geometry_says() {
     let scale = (camera::PLANT_EDGE / scene.size().max_element()) as f32;
     let place = |p: Vec3| (p - scene.center().as_vec3()) * scale;
     let points = scene.parts().iter().flat_map(|part| part.positions.iter().map(|&p| place(p)));
-    let camera = Camera::fit(points, &params);
+    let camera = Camera::fit(points, &Frame::around(&scene, &[]), &params);
     let at = |p: Vec3| {
         let pixel = camera.project(place(p)).unwrap().as_uvec2();
         picture.get_pixel(pixel.x, pixel.y).0

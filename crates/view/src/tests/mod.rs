@@ -1,5 +1,6 @@
 //! Laws of pictures, on plants of a few quads whose light is known in closed form.
 
+mod chosen;
 mod laws;
 mod leaf;
 mod leaf_light;
