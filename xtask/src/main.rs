@@ -15,9 +15,11 @@ mod fixtures;
 mod gallery;
 mod generated;
 mod loaders;
+mod new_baker;
 mod obj_text;
 mod repo;
 mod run_tests;
+mod scratch;
 #[cfg(feature = "foliar")]
 mod second_reading;
 #[cfg(feature = "foliar")]

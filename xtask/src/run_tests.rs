@@ -1,6 +1,6 @@
 //! Everything that must pass before work is handed in, one step after the other.
 
-use crate::{fixtures, generated, loaders, repo, tidy, validator, with_foliar};
+use crate::{fixtures, generated, loaders, new_baker, repo, tidy, validator, with_foliar};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 type Step = (&'static str, fn() -> Result<()>);
 
 /// In the order in which a person wants to hear of a fault.
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 11] = [
     ("format", || cargo(&["fmt", "--all", "--check"])),
     ("tidy", tidy::run),
     ("lints", || {
@@ -25,6 +25,7 @@ const STEPS: [Step; 10] = [
     ("validator", validator::run),
     ("second reader", || with_foliar::run("second-reader", None)),
     ("loaders", loaders::run),
+    ("new baker", new_baker::trial),
 ];
 
 /// Runs every step, even after one failed, and names those that did. What was skipped stands in the last

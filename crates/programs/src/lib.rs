@@ -7,6 +7,7 @@ pub const BAKERS: &[&dyn Baker] = &[
     &foliar_wind::Wind,
     &foliar_light::Light,
     &foliar_density::Density,
+    // Bakers of libraries.
     &foliar_wind::Noise,
     &foliar_translucency::Leafscan,
 ];
