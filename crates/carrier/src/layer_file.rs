@@ -2,9 +2,9 @@
 //! record and roles as JSON under one metadata key (several keys would change order from run to run).
 
 use crate::CarrierError;
-use foliar_bake::{Array, AttributeKey, ColumnKey, FloatRaster, Layer};
+use foliar_bake::{Array, AttributeKey, ColumnKey, FloatRaster, Layer, first_broken};
 use foliar_plant::Place;
-use foliar_schema::{Record, Role, names};
+use foliar_schema::{Record, Role, channel, names};
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -74,6 +74,9 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
             continue;
         }
         let array = array(&tensor).map_err(|problem| fail(&name, problem))?;
+        if let Some((row, value)) = out_of_range(&name, &array) {
+            return Err(fail(&name, format!("row {row} is {value}, outside the range of its channel")));
+        }
         put(&mut layer, &name, array).ok_or_else(|| {
             fail(
                 &name,
@@ -82,6 +85,17 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
         })?;
     }
     Ok(layer)
+}
+
+/// The first row of a known channel that no room can have written, or of a column that is no number.
+fn out_of_range(name: &str, array: &Array) -> Option<(usize, f32)> {
+    match name.strip_prefix("attr/").and_then(|rest| rest.rsplit('/').next()).and_then(channel) {
+        Some(channel) => first_broken(channel, array),
+        None => {
+            let data = array.as_f32()?;
+            data.iter().position(|value| !value.is_finite()).map(|at| (at / array.width(), data[at]))
+        }
+    }
 }
 
 fn place_of(text: &str) -> Option<Place> {
