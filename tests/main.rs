@@ -21,6 +21,7 @@ mod laws;
 mod layers;
 mod leafscan;
 mod moving;
+mod mutations;
 mod neighbors;
 mod pack;
 mod plants;

@@ -11,10 +11,12 @@ mod cli;
 mod expected_parts;
 mod faults;
 mod fixtures;
+mod fuzz;
 #[cfg(feature = "foliar")]
 mod gallery;
 mod generated;
 mod loaders;
+mod mutate;
 mod new_baker;
 mod obj_text;
 mod repo;
