@@ -4,7 +4,7 @@
 use crate::CarrierError;
 use foliar_bake::{Array, AttributeKey, ColumnKey, FloatRaster, Layer, first_broken};
 use foliar_plant::Place;
-use foliar_schema::{Record, Role, channel, names};
+use foliar_schema::{Record, Role, channel, column, names};
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -87,13 +87,19 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
     Ok(layer)
 }
 
-/// The first row of a known channel that no room can have written, or of a column that is no number.
+/// What a column holds that the contract does not know.
+const ANY: [f32; 2] = [f32::MIN, f32::MAX];
+
+/// The first row of a known channel or column that no room can have written, or of another that is no number.
 fn out_of_range(name: &str, array: &Array) -> Option<(usize, f32)> {
     match name.strip_prefix("attr/").and_then(|rest| rest.rsplit('/').next()).and_then(channel) {
         Some(channel) => first_broken(channel, array),
         None => {
+            let known = name.strip_prefix("table/").and_then(|rest| rest.split_once('/'));
+            let [least, most] = known.and_then(|(class, name)| column(class, name)).map_or(ANY, |c| c.range);
             let data = array.as_f32()?;
-            data.iter().position(|value| !value.is_finite()).map(|at| (at / array.width(), data[at]))
+            let outside = |value: &f32| !(*value >= least && *value <= most);
+            data.iter().position(outside).map(|at| (at / array.width(), data[at]))
         }
     }
 }

@@ -22,6 +22,7 @@ pub(super) const ROOM: Room = Room {
         unit: "1",
         visible_step: 1.0 / 255.0,
         step_unit: "1",
+        optical_depth: false,
         neutral: Neutral::Value(0.0),
         doc: "share of the plant's leaf area around the vertex, near leaves counting more",
     }],
