@@ -1,63 +1,69 @@
 //! The conventions of every program (house rules, section 6): one walk over all programs and all flags.
 
-use crate::common::{
-    CHECK, DENSITY, FOLIAR, IMPORT, LEAFSCAN, LIGHT, NOISE, PACK, Run, VIEW, WIND, folder, run_in, tree,
-};
+use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, LEAFSCAN, NOISE, PACK, Run, VIEW, folder, run_in, text, tree};
 use crate::leafscan::leaf;
+use foliar_bake::Baker;
 use foliar_programs::BAKERS;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// One command, run on a prepared folder.
+#[derive(Clone)]
 struct Case {
     /// As one types it.
-    name: &'static str,
-    program: &'static str,
-    arguments: &'static [&'static str],
+    name: String,
+    program: PathBuf,
+    arguments: Vec<String>,
     /// The file that it writes; none where it only answers.
-    output: Option<&'static str>,
+    output: Option<String>,
     /// Files that it reads, the project's configuration aside.
     reads: &'static [&'static str],
 }
 
 const OBJ: &[&str] = &["tree.obj", "tree.mtl"];
 
+/// Commands that are no room's of a tree: as one types them, program, output and what they read.
 #[rustfmt::skip]
-const CASES: [Case; 17] = [
-    Case { name: "foliar bake", program: FOLIAR, arguments: &["bake", "tree.obj", "-o", "bake.glb"],
-        output: Some("bake.glb"), reads: OBJ },
-    Case { name: "foliar rebake", program: FOLIAR, arguments: &["rebake", "baked.glb", "-o", "rebake.glb", "--up", "z"],
-        output: Some("rebake.glb"), reads: &["baked.glb"] },
-    Case { name: "foliar assemble", program: FOLIAR,
-        arguments: &["assemble", "plant.glb", "density.layer", "-o", "assemble.gltf", "--up", "z"],
-        output: Some("assemble.gltf"), reads: &["plant.glb", "density.layer"] },
-    Case { name: "foliar strip", program: FOLIAR, arguments: &["strip", "baked.glb", "-o", "strip.glb", "--up", "z"],
-        output: Some("strip.glb"), reads: &["baked.glb"] },
-    Case { name: "foliar inspect", program: FOLIAR, arguments: &["inspect", "tree.obj"], output: None, reads: OBJ },
-    Case { name: "foliar config", program: FOLIAR, arguments: &["config", "tree.obj"], output: None, reads: OBJ },
-    Case { name: "foliar-import", program: IMPORT, arguments: &["tree.obj", "-o", "import.glb"],
-        output: Some("import.glb"), reads: OBJ },
-    Case { name: "foliar-density", program: DENSITY, arguments: &["tree.obj", "-o", "density.glb"],
-        output: Some("density.glb"), reads: OBJ },
-    Case { name: "foliar-wind", program: WIND, arguments: &["tree.obj", "-o", "wind.glb"],
-        output: Some("wind.glb"), reads: OBJ },
-    Case { name: "foliar-light", program: LIGHT, arguments: &["tree.obj", "-o", "light.glb"],
-        output: Some("light.glb"), reads: OBJ },
-    Case { name: "foliar-noise", program: NOISE, arguments: &["-o", "noise.png", "--size", "64", "--kmax", "16"],
-        output: Some("noise.png"), reads: &[] },
-    Case { name: "foliar-leafscan", program: LEAFSCAN, arguments: &["leaf.obj", "-o", "leaf.exr", "--resolution", "32"],
-        output: Some("leaf.exr"), reads: &["leaf.obj"] },
-    Case { name: "foliar-view", program: VIEW,
-        arguments: &["tree.obj", "-o", "view.png", "--width-px", "64", "--height-px", "48", "--samples", "1"],
-        output: Some("view.png"), reads: OBJ },
-    Case { name: "foliar-pack", program: PACK, arguments: &["baked.glb", "-o", "pack.glb", "--for", "core", "--up", "z"],
-        output: Some("pack.glb"), reads: &["baked.glb"] },
-    Case { name: "foliar-check", program: CHECK, arguments: &["tree.obj"], output: None,
-        reads: &["tree.obj", "tree.mtl"] },
-    Case { name: "foliar diff", program: FOLIAR, arguments: &["diff", "baked.glb", "baked.glb", "--up", "z"],
-        output: None, reads: &["baked.glb"] },
-    Case { name: "foliar explain", program: FOLIAR, arguments: &["explain", "STALE"], output: None, reads: &[] },
+const COMMANDS: [(&str, &str, Option<&str>, &[&str]); 14] = [
+    ("foliar bake tree.obj -o bake.glb", FOLIAR, Some("bake.glb"), OBJ),
+    ("foliar rebake baked.glb -o rebake.glb --up z", FOLIAR, Some("rebake.glb"), &["baked.glb"]),
+    ("foliar assemble plant.glb density.layer -o assemble.gltf --up z", FOLIAR, Some("assemble.gltf"),
+        &["plant.glb", "density.layer"]),
+    ("foliar strip baked.glb -o strip.glb --up z", FOLIAR, Some("strip.glb"), &["baked.glb"]),
+    ("foliar inspect tree.obj", FOLIAR, None, OBJ),
+    ("foliar config tree.obj", FOLIAR, None, OBJ),
+    ("foliar-import tree.obj -o import.glb", IMPORT, Some("import.glb"), OBJ),
+    ("foliar-noise -o noise.png --size 64 --kmax 16", NOISE, Some("noise.png"), &[]),
+    ("foliar-leafscan leaf.obj -o leaf.exr --resolution 32", LEAFSCAN, Some("leaf.exr"), &["leaf.obj"]),
+    ("foliar-view tree.obj -o view.png --width-px 64 --height-px 48 --samples 1", VIEW, Some("view.png"), OBJ),
+    ("foliar-pack baked.glb -o pack.glb --for core --up z", PACK, Some("pack.glb"), &["baked.glb"]),
+    ("foliar-check tree.obj", CHECK, None, OBJ),
+    ("foliar diff baked.glb baked.glb --up z", FOLIAR, None, &["baked.glb"]),
+    ("foliar explain STALE", FOLIAR, None, &[]),
 ];
+
+/// A case for each command, and one for each room of a tree.
+fn cases() -> Vec<Case> {
+    let command = |(typed, program, output, reads): (&str, &str, Option<&str>, &'static [&'static str])| {
+        let words: Vec<&str> = typed.split(' ').collect();
+        let named = if program == FOLIAR { 2 } else { 1 };
+        Case {
+            name: words[..named].join(" "),
+            program: program.into(),
+            arguments: words[1..].iter().map(|word| (*word).to_owned()).collect(),
+            output: output.map(Into::into),
+            reads,
+        }
+    };
+    let room = |baker: &&dyn Baker| {
+        let (name, output) = (format!("foliar-{}", baker.room()), format!("{}.glb", baker.room()));
+        let program = Path::new(FOLIAR).with_file_name(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+        let arguments = ["tree.obj", "-o", &output].map(Into::into).into();
+        Case { name, program, arguments, output: Some(output), reads: OBJ }
+    };
+    let rooms = BAKERS.iter().filter(|baker| baker.needs().plant).map(room);
+    COMMANDS.into_iter().map(command).chain(rooms).collect()
+}
 
 /// Everything that the commands read, and a configuration.
 fn prepared() -> tempfile::TempDir {
@@ -73,7 +79,8 @@ fn prepared() -> tempfile::TempDir {
 
 impl Case {
     fn run(&self, here: &Path, flags: &[&str]) -> Run {
-        run_in(here, self.program, &[self.arguments, flags].concat())
+        let own: Vec<&str> = self.arguments.iter().map(String::as_str).collect();
+        run_in(here, text(&self.program), &[&own, flags].concat())
     }
 
     /// Whether there is anything that findings could be about: its tree says neither unit nor up.
@@ -82,7 +89,7 @@ impl Case {
     }
 
     fn written(&self, here: &Path) -> Option<Vec<u8>> {
-        std::fs::read(here.join(self.output?)).ok()
+        std::fs::read(here.join(self.output.as_ref()?)).ok()
     }
 }
 
@@ -100,8 +107,8 @@ fn the_walk_meets_every_command_of_every_program() {
         }
     }
     all.sort();
-    let mut walked = CASES.map(|case| case.name);
-    walked.sort_unstable();
+    let mut walked: Vec<String> = cases().into_iter().map(|case| case.name).collect();
+    walked.sort();
     assert_eq!(all, walked, "a new command gets a row here");
 }
 
@@ -109,8 +116,8 @@ fn the_walk_meets_every_command_of_every_program() {
 fn plans_and_checks_write_nothing() {
     let here = prepared();
     let here = here.path();
-    for case in CASES {
-        let Some(output) = case.output else {
+    for case in cases() {
+        let Some(output) = case.output.as_deref() else {
             for flag in [&["--check"][..], &["--dry-run"], &["--outputs", "x.json"]] {
                 case.run(here, flag).expect(2, &[flag[0]]);
             }
@@ -134,18 +141,19 @@ fn plans_and_checks_write_nothing() {
 fn lists_name_what_was_read_and_made() {
     let here = prepared();
     let here = here.path();
-    for case in CASES {
+    for case in cases() {
         let mut flags = vec!["--report", "r.json", "--depfile", "t.d", "-v"];
         flags.extend(case.output.iter().flat_map(|_| ["--outputs", "o.json"]));
         let run = case.run(here, &flags).expect(0, &["read: ", " s\n"]);
-        let named = ["r.json", "t.d"].into_iter().chain(case.output).chain(case.output.map(|_| "o.json"));
+        let output = case.output.as_deref();
+        let named = ["r.json", "t.d"].into_iter().chain(output).chain(output.map(|_| "o.json"));
         for file in named {
             assert!(run.stdout.contains(&format!("{file}: written")), "{}: {file} in {}", case.name, run.stdout);
         }
         let read = |name: &str| std::fs::read_to_string(here.join(name)).unwrap();
         let rule = read("t.d");
         let (target, files) = rule.trim_end().split_once(": ").unwrap();
-        assert_eq!(target, case.output.unwrap_or("r.json"), "{}", case.name);
+        assert_eq!(target, output.unwrap_or("r.json"), "{}", case.name);
         let mut files: Vec<&str> = files.split(' ').map(|file| file.rsplit('/').next().unwrap()).collect();
         files.sort_unstable();
         let mut expected = [case.reads, &["foliar.toml"]].concat();
@@ -159,7 +167,7 @@ fn lists_name_what_was_read_and_made() {
             let listed: Vec<String> = serde_json::from_str(&read("o.json")).unwrap();
             assert_eq!(json!(listed), asset["outputs"], "{}", case.name);
             assert!(listed.iter().all(|file| here.join(file).exists()), "{}: {listed:?}", case.name);
-            assert_eq!(listed.last().map(String::as_str), case.output, "{}: the commit is last", case.name);
+            assert_eq!(listed.last().map(String::as_str), output, "{}: the commit is last", case.name);
         }
         for list in ["r.json", "t.d", "o.json"] {
             _ = std::fs::remove_file(here.join(list));
@@ -171,10 +179,10 @@ fn lists_name_what_was_read_and_made() {
 fn every_program_speaks_in_every_format_or_not_at_all() {
     let here = prepared();
     let here = here.path();
-    for case in CASES {
+    for case in cases() {
         let said = |format| case.run(here, &["--format", format]).expect(0, &[]).stdout;
         let line: Value = serde_json::from_str(&said("json")).unwrap();
-        if let Some(output) = case.output {
+        if let Some(output) = case.output.as_deref() {
             assert_eq!((&line["output"], &line["status"]), (&output.into(), &"written".into()), "{}", case.name);
         }
         let sarif: Value = serde_json::from_str(&said("sarif")).unwrap();
@@ -192,7 +200,7 @@ fn every_program_speaks_in_every_format_or_not_at_all() {
 fn any_number_of_threads_gives_the_same() {
     let here = prepared();
     let here = here.path();
-    for case in CASES {
+    for case in cases() {
         case.run(here, &["--threads", "0"]).expect(2, &["--threads"]);
         let made = ["1", "3"].map(|threads| {
             let run = case.run(here, &["--threads", threads]).expect(0, &[]);

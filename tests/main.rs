@@ -23,6 +23,7 @@ mod laws;
 mod layers;
 mod leafscan;
 mod moving;
+mod mutations;
 mod neighbors;
 mod outsiders;
 mod pack;

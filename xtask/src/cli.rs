@@ -1,6 +1,6 @@
 //! What xtask is asked.
 
-use crate::{faults, fixtures, generated, loaders, run_tests, tidy, validator, with_foliar};
+use crate::{faults, fixtures, fuzz, generated, loaders, mutate, new_baker, run_tests, tidy, validator, with_foliar};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -57,6 +57,29 @@ enum Chore {
     SecondReader,
     /// Loads every packed output of the tests with three and Blender
     Loaders,
+    /// Mutates the shared trees and demands that every program ends by itself, in time and in bounds
+    Mutate {
+        /// How many cases
+        #[arg(default_value_t = 2000)]
+        cases: u64,
+    },
+    /// Runs the fuzz targets of tests/fuzz, where they can be built
+    Fuzz {
+        /// Seconds for each
+        #[arg(default_value_t = 120)]
+        seconds: u64,
+        /// Only those whose name contains this
+        name: Option<String>,
+    },
+    /// Writes a new room: its crate, its part of the contract, its program, and the lines that join them
+    NewBaker {
+        /// Name of room, section, layer and program: lowercase letters and digits
+        #[arg(required_unless_present = "trial")]
+        name: Option<String>,
+        /// Does it in a scratch copy instead, and demands that what it wrote keeps the laws and is baked
+        #[arg(long, conflicts_with = "name")]
+        trial: bool,
+    },
     /// Plants small faults in a scratch copy and demands that the tests they name go red
     Faults {
         /// Only those whose name contains one of these
@@ -81,6 +104,10 @@ pub fn main() -> ExitCode {
         Chore::Tradeoff { name } => with_foliar::run("tradeoff", Some(&name)),
         Chore::SecondReader => with_foliar::run("second-reader", None),
         Chore::Loaders => loaders::run(),
+        Chore::Fuzz { seconds, name } => fuzz::run(seconds, name.as_deref()),
+        Chore::Mutate { cases } => mutate::run(cases),
+        Chore::NewBaker { name: Some(name), .. } => new_baker::run(&name),
+        Chore::NewBaker { name: None, .. } => new_baker::trial(),
         Chore::Faults { names } => faults::run(&names),
         Chore::Test => run_tests::run(),
     };

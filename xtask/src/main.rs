@@ -11,14 +11,18 @@ mod cli;
 mod expected_parts;
 mod faults;
 mod fixtures;
+mod fuzz;
 #[cfg(feature = "foliar")]
 mod gallery;
 mod generated;
 mod loaders;
+mod mutate;
+mod new_baker;
 mod obj_text;
 mod packages;
 mod repo;
 mod run_tests;
+mod scratch;
 #[cfg(feature = "foliar")]
 mod second_reading;
 #[cfg(feature = "foliar")]

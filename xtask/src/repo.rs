@@ -47,6 +47,12 @@ pub fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
+/// A command that hears nothing of foliar's parameters in the environment: what it makes is the same everywhere.
+pub fn without_parameters(command: &mut Command) -> &mut Command {
+    let ours = std::env::vars_os().map(|(name, _)| name).filter(|name| name.to_string_lossy().starts_with("FOLIAR_"));
+    ours.fold(command, |command, name| command.env_remove(name))
+}
+
 /// The command as one would type it.
 pub fn line(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
@@ -59,7 +65,6 @@ fn missing(command: &Command) -> String {
 }
 
 /// Folder that cargo builds into: CARGO_TARGET_DIR, else target.
-#[cfg(feature = "foliar")]
 pub fn build_folder() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
 }

@@ -1,6 +1,6 @@
 //! Everything that must pass before work is handed in, one step after the other.
 
-use crate::{fixtures, generated, loaders, packages, repo, tidy, validator, with_foliar};
+use crate::{fixtures, generated, loaders, new_baker, packages, repo, tidy, validator, with_foliar};
 use anyhow::{Context, Result, bail};
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
@@ -26,6 +26,7 @@ const STEPS: [Step; 11] = [
     ("validator", validator::run),
     ("second reader", || with_foliar::run("second-reader", None)),
     ("loaders", loaders::run),
+    ("new baker", new_baker::trial),
 ];
 
 /// Runs every step, even after one failed, and names those that did. What was skipped stands in the last

@@ -21,6 +21,20 @@ pub struct Inputs<'a> {
     pub neighbors: &'a [Placed],
 }
 
+impl<'a> Inputs<'a> {
+    /// The plant, for a room that cannot do without.
+    ///
+    /// # Errors
+    /// [`BakeError::Needs`].
+    pub fn plant_for(&self, room: &str) -> Result<&'a Plant, BakeError> {
+        self.plant.ok_or_else(|| BakeError::Needs {
+            room: room.into(),
+            what: "a plant",
+            remedy: "give an OBJ, glTF or GLB file".into(),
+        })
+    }
+}
+
 /// What a room cannot do without.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {

@@ -53,13 +53,40 @@ const THREADS: [usize; 3] = [1, 2, 5];
 /// and centers rounded elsewhere move f32 results by some 1e-6; a tenth of what can be seen is far above.
 const FRAME_STEPS: f64 = 0.1;
 
-/// Walks one law over plants.
+/// A test for each law, over the plants that an expression gives: `foliar_bake::law_tests!(Wind, odd_plants());`
+#[macro_export]
+macro_rules! law_tests {
+    ($baker:expr, $samples:expr) => {
+        $crate::law_tests! { @each $baker, $samples;
+            law_2_own_room own_room,
+            law_4_repeatable repeatable,
+            law_5_meets_its_reference meets_reference,
+            law_6_in_range in_range,
+            law_7_defaults_agree defaults_agree,
+            law_8_order_free order_free,
+            law_8_translation_free translation_free,
+            law_8_unit_free unit_free
+        }
+    };
+    (@each $baker:expr, $samples:expr; $($test:ident $law:ident),*) => {
+        const _: () = assert!($crate::laws::LAWS.len() == [$(stringify!($law)),*].len(), "a law has no test");
+        $(
+            #[test]
+            fn $test() {
+                $crate::laws::hold($crate::laws::$law, &$baker, &$samples);
+            }
+        )*
+    };
+}
+
+/// Demands that a law holds on every plant: what a test calls.
 ///
-/// # Errors
-/// The first [`Breach`].
-pub fn check(law: &str, baker: &dyn Baker, samples: &[Sample]) -> Result<(), Breach> {
-    let laws = LAWS.iter().filter(|(name, _)| *name == law);
-    laws.flat_map(|(_, holds)| samples.iter().map(|sample| holds(baker, sample))).collect()
+/// # Panics
+/// With every [`Breach`], a line each.
+pub fn hold(law: Law, baker: &dyn Baker, samples: &[Sample]) {
+    let breaches = samples.iter().filter_map(|sample| law(baker, sample).err());
+    let lines: Vec<String> = breaches.map(|breach| breach.to_string()).collect();
+    assert!(lines.is_empty(), "{}", lines.join("\n"));
 }
 
 /// Walks every law over every plant and returns all breaches.

@@ -7,6 +7,7 @@ mod error;
 mod hash;
 pub mod laws;
 mod layer;
+mod parse;
 mod placement;
 mod raster;
 pub mod reframe;
@@ -19,6 +20,7 @@ pub use baker::{
 pub use error::BakeError;
 pub use hash::base_hash;
 pub use layer::{AttributeKey, ColumnKey, Layer};
+pub use parse::{params_json, parse_params};
 pub use placement::{Placed, Placement};
 pub use raster::{FloatRaster, MapRaster};
-pub use run::{Request, resolve_params, run};
+pub use run::{Request, first_broken, resolve_params, run};

@@ -58,12 +58,8 @@ pub fn run(
     progress: &dyn Progress,
 ) -> Result<(Layer, Vec<foliar_schema::Finding>), BakeError> {
     let params = resolve_params(baker, &request.implied, &request.given)?;
-    if baker.needs().plant && inputs.plant.is_none() {
-        return Err(BakeError::Needs {
-            room: baker.room().into(),
-            what: "a plant",
-            remedy: "give an OBJ, glTF or GLB file".into(),
-        });
+    if baker.needs().plant {
+        inputs.plant_for(baker.room())?;
     }
     if baker.needs().branches && inputs.plant.is_none_or(|plant| plant.branches().is_none()) {
         return Err(BakeError::Needs {
@@ -104,7 +100,8 @@ fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec
 fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
     for (key, array) in &baked.attributes {
         let channel = CHANNELS.iter().find(|c| c.name == key.name && c.room == room);
-        let broken = first_broken(channel, array);
+        // A channel that is not the room's is broken in its first row.
+        let broken = channel.map_or(Some((0, f32::NAN)), |channel| first_broken(channel, array));
         if let Some((row, value)) = broken {
             return Err(BakeError::Broken { room: room.into(), channel: key.name.clone(), row, value });
         }
@@ -131,14 +128,12 @@ fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
     Ok(())
 }
 
-/// First row outside the declared range; row 0 where the room may not write the channel at all.
-fn first_broken(channel: Option<&Channel>, array: &Array) -> Option<(usize, f32)> {
+/// First row outside the declared range of its channel, and what it is; row 0 where the array is of another type.
+pub fn first_broken(channel: &Channel, array: &Array) -> Option<(usize, f32)> {
     // One ulp of a unit vector's rounded components, three times squared and summed.
     const UNIT_TOLERANCE: f32 = 1e-6;
-    let (Some(channel), Some(data)) = (channel, array.as_f32()) else { return Some((0, f32::NAN)) };
-    if channel.width != array.width() {
-        return Some((0, f32::NAN));
-    }
+    let data = array.as_f32().filter(|_| channel.width == array.width());
+    let Some(data) = data else { return Some((0, f32::NAN)) };
     data.chunks_exact(channel.width).enumerate().find_map(|(row, values)| {
         let outside = values.iter().find(|v| !(**v >= channel.min && **v <= channel.max));
         let length = values.iter().map(|v| v * v).sum::<f32>().sqrt();

@@ -2,9 +2,9 @@
 //! record and roles as JSON under one metadata key (several keys would change order from run to run).
 
 use crate::CarrierError;
-use foliar_bake::{Array, AttributeKey, ColumnKey, FloatRaster, Layer};
+use foliar_bake::{Array, AttributeKey, ColumnKey, FloatRaster, Layer, first_broken};
 use foliar_plant::Place;
-use foliar_schema::{Record, Role, names};
+use foliar_schema::{Record, Role, channel, column, names};
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -82,6 +82,9 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
             continue;
         }
         let array = array(&tensor).map_err(|problem| fail(&name, problem))?;
+        if let Some((row, value)) = out_of_range(&name, &array) {
+            return Err(fail(&name, format!("row {row} is {value}, outside the range of its channel")));
+        }
         put(&mut layer, &name, array).ok_or_else(|| {
             fail(
                 &name,
@@ -90,6 +93,23 @@ pub(crate) fn from_bytes(bytes: &[u8], file: &str) -> Result<Layer, CarrierError
         })?;
     }
     Ok(layer)
+}
+
+/// What a column holds that the contract does not know.
+const ANY: [f32; 2] = [f32::MIN, f32::MAX];
+
+/// The first row of a known channel or column that no room can have written, or of another that is no number.
+fn out_of_range(name: &str, array: &Array) -> Option<(usize, f32)> {
+    match name.strip_prefix("attr/").and_then(|rest| rest.rsplit('/').next()).and_then(channel) {
+        Some(channel) => first_broken(channel, array),
+        None => {
+            let known = name.strip_prefix("table/").and_then(|rest| rest.split_once('/'));
+            let [least, most] = known.and_then(|(class, name)| column(class, name)).map_or(ANY, |c| c.range);
+            let data = array.as_f32()?;
+            let outside = |value: &f32| !(*value >= least && *value <= most);
+            data.iter().position(outside).map(|at| (at / array.width(), data[at]))
+        }
+    }
 }
 
 fn place_of(text: &str) -> Option<Place> {

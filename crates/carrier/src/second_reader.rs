@@ -355,7 +355,7 @@ fn is_unit(vector: &[f64]) -> bool {
 fn check_values(channel: &Channel, values: &[f64]) -> Result<(), String> {
     let (low, high) = (f64::from(channel.min), f64::from(channel.max));
     let bad = values.iter().find(|v| !(**v >= low && **v <= high));
-    ensure(bad.is_none(), || format!("{bad:?} is outside {low} to {high}"))?;
+    ensure(bad.is_none(), || format!("{} is outside {low} to {high}", bad.copied().unwrap_or_default()))?;
     let unit = !channel.unit_length || values.chunks(channel.width).all(is_unit);
     ensure(unit, || "a vector is not unit".into())
 }

@@ -7,7 +7,7 @@ mod common;
 use common::*;
 use foliar_bake::{Array, Layer};
 use foliar_carrier::{Document, assemble, check_layer, layer_from_bytes, layer_to_bytes};
-use foliar_schema::{Finding, names};
+use foliar_schema::{Finding, channel, names};
 use serde_json::{Value, json};
 
 fn codes(findings: &[Finding]) -> Vec<&str> {
@@ -222,6 +222,23 @@ fn bad_layer_files_are_refused_in_words() {
     let foreign =
         safetensors::serialize(std::iter::empty::<(String, safetensors::tensor::TensorView)>(), None).unwrap();
     assert!(layer_from_bytes(&foreign, "x").unwrap_err().to_string().contains("no key \"foliar\""));
+}
+
+#[test]
+fn a_layer_file_with_a_value_that_no_room_can_have_written_is_refused() {
+    let asset = plain();
+    let place = asset.base.parts[0].place;
+    for (name, values, row) in [(names::AMBIENT, vec![0.5, 1.5], 1), (names::SOFT_NORMAL, vec![0.0, 0.5, 0.0], 0)] {
+        let width = channel(name).unwrap().width;
+        let mut layer = Layer::default();
+        layer.attributes.insert(key(place, name), Array::F32 { width, data: values });
+        let error = layer_from_bytes(&layer_to_bytes(&layer).unwrap(), "x.layer").unwrap_err().to_string();
+        assert!(error.contains(name) && error.contains(&format!("row {row} is ")), "{error}");
+    }
+    let mut layer = Layer::default();
+    layer.columns.insert(column(names::CLASS_LEAF, "area"), Array::scalars(vec![1.0, 2.0, f32::NAN]));
+    let error = layer_from_bytes(&layer_to_bytes(&layer).unwrap(), "x.layer").unwrap_err().to_string();
+    assert!(error.contains("foliarLeaf/area") && error.contains("row 2 is NaN"), "{error}");
 }
 
 #[test]

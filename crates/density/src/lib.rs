@@ -57,10 +57,6 @@ const EXACT_STEPS: f64 = 0.01;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Density;
 
-fn schema() -> Value {
-    schemars::schema_for!(Params).to_value()
-}
-
 impl Baker for Density {
     fn room(&self) -> &'static str {
         ROOM
@@ -75,7 +71,7 @@ impl Baker for Density {
     }
 
     fn schema(&self) -> Value {
-        schema()
+        schemars::schema_for!(Params).to_value()
     }
 
     fn needs(&self) -> Needs {

@@ -3,7 +3,7 @@
 use crate::fast::{Places, Values};
 use crate::generators::Foliage;
 use crate::params::Params;
-use foliar_bake::{Array, AttributeKey, Baked};
+use foliar_bake::{Array, AttributeKey, Baked, params_json};
 use foliar_plant::Plant;
 use foliar_schema::{Finding, MeasuredError, code, names};
 use glam::{DVec3, Vec3};
@@ -62,10 +62,7 @@ fn missed(values: &Values, params: &Params) -> Vec<Finding> {
 
 fn resolved(params: &Params, radius: Option<f64>) -> Map<String, Value> {
     let params = Params { radius_m: radius, quality: Some(params.quality()), ..params.clone() };
-    match json!(params) {
-        Value::Object(map) => map,
-        _ => Map::new(),
-    }
+    params_json(&params)
 }
 
 /// What a shader or a reader needs beside the arrays, and the absolute values behind the relative ones.

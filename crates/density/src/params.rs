@@ -2,7 +2,7 @@
 
 use crate::ROOM;
 use crate::surface::SurfaceParams;
-use foliar_bake::{BakeError, Placement};
+use foliar_bake::{BakeError, Placement, parse_params};
 use foliar_schema::Budget;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -169,14 +169,7 @@ impl Params {
     /// [`BakeError::Range`] outside the documented ranges, [`BakeError::Parameter`] for unknown names,
     /// wrong types and numbers that are not finite.
     pub fn from_json(params: &Map<String, Value>) -> Result<Params, BakeError> {
-        let value = Value::Object(params.clone());
-        foliar_schema::check_ranges(&crate::schema(), &value)
-            .map_err(|source| BakeError::Range { room: ROOM.into(), source })?;
-        let params: Params = serde_json::from_value(value).map_err(|error| BakeError::Parameter {
-            room: ROOM.into(),
-            place: "params".into(),
-            reason: error.to_string(),
-        })?;
+        let params: Params = parse_params(ROOM, params)?;
         params.check()?;
         Ok(params)
     }

@@ -8,6 +8,7 @@ pub const BAKERS: &[&dyn Baker] = &[
     &foliar_light::Light,
     &foliar_density::Density,
     &foliar_translucency::Translucency,
+    // Bakers of libraries.
     &foliar_wind::Noise,
     &foliar_translucency::Leafscan,
 ];

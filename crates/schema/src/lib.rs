@@ -13,16 +13,18 @@ mod ranges;
 mod raster;
 mod record;
 mod role;
+mod rooms;
 
-pub use channel::{CHANNELS, Channel, Element, LATER_ROOMS, Neutral, ROOMS, channel};
+pub use channel::{Channel, Element, Neutral, channel};
 pub use codes::{CODES, CodeInfo, code};
-pub use column::{COLUMNS, Column, column};
+pub use column::{Column, column};
 pub use config::{
     Ambient, Budget, Camera, Check, Engine, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
 };
 pub use extension::{CONTRACT, ColorLink, FoliageExtension, MapLink, PrimitiveExtension, SheetLinks};
 pub use finding::{Finding, Severity};
 pub use ranges::{RangeError, check_ranges};
-pub use raster::{RASTERS, RasterInfo, raster};
+pub use raster::{RasterInfo, raster};
 pub use record::{MeasuredError, Record};
 pub use role::Role;
+pub use rooms::{CHANNELS, COLUMNS, LATER_ROOMS, RASTERS, ROOMS};

@@ -4,7 +4,7 @@ use crate::fast::Values;
 use crate::frames;
 use crate::params::Params;
 use crate::sway::power;
-use foliar_bake::{Array, AttributeKey, Baked, ColumnKey};
+use foliar_bake::{Array, AttributeKey, Baked, ColumnKey, params_json};
 use foliar_plant::{Branches, LEVELS, Plant};
 use foliar_schema::{Finding, Role, code, names};
 use glam::DVec2;
@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 /// The layer of a plant.
 pub(crate) fn baked(plant: &Plant, branches: &Branches, values: &Values, params: &Params) -> Baked {
-    let mut baked = Baked { resolved: resolved(params), facts: facts(plant, values, params), ..Baked::default() };
+    let mut baked = Baked { resolved: params_json(params), facts: facts(plant, values, params), ..Baked::default() };
     for (index, part) in plant.parts().iter().enumerate() {
         let key = |name: &str| AttributeKey { place: part.place, name: name.into() };
         let (weights, own) = (&values.weights[index], &values.leaf_weights[index]);
@@ -38,13 +38,6 @@ pub(crate) fn baked(plant: &Plant, branches: &Branches, values: &Values, params:
         baked.findings.push(Finding::new(&code::WOOD_NONE, message));
     }
     baked
-}
-
-fn resolved(params: &Params) -> Map<String, Value> {
-    match json!(params) {
-        Value::Object(map) => map,
-        _ => Map::new(),
-    }
 }
 
 /// What a shader needs beside the arrays.

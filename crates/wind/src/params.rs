@@ -1,6 +1,6 @@
 //! Parameters of the wind room.
 
-use foliar_bake::BakeError;
+use foliar_bake::{BakeError, parse_params};
 use foliar_plant::LEVELS;
 use foliar_schema::names;
 use schemars::JsonSchema;
@@ -32,14 +32,6 @@ impl Params {
     /// # Errors
     /// [`BakeError::Range`] outside the documented ranges, [`BakeError::Parameter`] for unknown names and wrong types.
     pub fn from_json(params: &Map<String, Value>) -> Result<Params, BakeError> {
-        let (room, value) = (names::ROOM_WIND, Value::Object(params.clone()));
-        let schema = schemars::schema_for!(Params).to_value();
-        foliar_schema::check_ranges(&schema, &value)
-            .map_err(|source| BakeError::Range { room: room.into(), source })?;
-        serde_json::from_value(value).map_err(|error| BakeError::Parameter {
-            room: room.into(),
-            place: "params".into(),
-            reason: error.to_string(),
-        })
+        parse_params(names::ROOM_WIND, params)
     }
 }

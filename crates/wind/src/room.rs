@@ -64,10 +64,13 @@ type Valuing = fn(&foliar_plant::Plant, &Branches, crate::Rule) -> fast::Values;
 
 fn bake_with(inputs: &Inputs, params: &Map<String, Value>, values: Valuing) -> Result<Baked, BakeError> {
     let params = Params::from_json(params)?;
-    let needs = |what, remedy: &str| BakeError::Needs { room: names::ROOM_WIND.into(), what, remedy: remedy.into() };
-    let plant = inputs.plant.ok_or_else(|| needs("a plant", "give an OBJ, glTF or GLB file"))?;
-    let branches =
-        plant.branches().ok_or_else(|| needs("branches", "find them (foliar_structure::branches) before"))?;
+    let plant = inputs.plant_for(names::ROOM_WIND)?;
+    let needs = || BakeError::Needs {
+        room: names::ROOM_WIND.into(),
+        what: "branches",
+        remedy: "find them (foliar_structure::branches) before".into(),
+    };
+    let branches = plant.branches().ok_or_else(needs)?;
     let values = values(plant, branches, (&params).into());
     Ok(output::baked(plant, branches, &values, &params))
 }

@@ -3,6 +3,7 @@
 mod allocations;
 mod branches;
 mod calibration;
+mod checking;
 pub mod correlation;
 pub mod density;
 mod expected;
@@ -141,6 +142,8 @@ const MEASURES: &[Measure] = &[
     ("obj-parse-ratio", reading::parse),
     ("obj-read-ratio", reading::read),
     ("picture-seconds", programs::picture),
+    ("check-seconds", checking::seconds),
+    ("check-memory", checking::memory),
     ("surface-normals-seconds", surface::normals),
     ("surface-time-40k-4", surface::small_coarse),
     ("surface-time-40k-8", surface::small_fine),

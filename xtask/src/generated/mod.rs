@@ -72,7 +72,7 @@ fn generate(kind: &str, scratch: &Path) -> Result<Documents> {
     let folder = scratch.join(kind);
     let mut cargo = repo::cargo();
     cargo.args(["run", "--quiet", "--package", "foliar-programs", "--bin", "foliar", "--", "generate", kind]);
-    repo::run(cargo.arg(&folder))?;
+    repo::run(repo::without_parameters(cargo.arg(&folder)))?;
     let entries = std::fs::read_dir(&folder).with_context(|| format!("foliar generate {kind} wrote nothing"))?;
     let read = |entry: std::io::Result<std::fs::DirEntry>| {
         let entry = entry?;

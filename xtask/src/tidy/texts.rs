@@ -43,7 +43,7 @@ pub fn top_level(files: &[String]) -> Vec<String> {
 /// Complaints about one text.
 pub fn check(file: &str, text: &str) -> Vec<String> {
     // Licenses and the lock file are not ours to word; this file lists what it forbids.
-    if file.starts_with("LICENSE-") || file == "Cargo.lock" || file == "xtask/src/tidy/texts.rs" {
+    if file.starts_with("LICENSE-") || file.ends_with("Cargo.lock") || file == "xtask/src/tidy/texts.rs" {
         return Vec::new();
     }
     let mut complaints = Vec::new();

@@ -77,8 +77,14 @@ impl Numbers {
 }
 
 /// Refuses sizes that no memory should be taken for.
-fn check_memory((width, height): (u32, u32), channels: u32, bytes: usize, name: &str) -> Result<(), CarrierError> {
-    check_size(width, height, bytes, name)?;
+fn check_memory(
+    format: Format,
+    (width, height): (u32, u32),
+    channels: u32,
+    bytes: usize,
+    name: &str,
+) -> Result<(), CarrierError> {
+    check_size(format, width, height, bytes, name)?;
     let needed = u64::from(width) * u64::from(height) * u64::from(channels) * 4;
     if needed <= MOST_BYTES {
         return Ok(());
@@ -106,7 +112,7 @@ fn picture_numbers(bytes: &[u8], format: Format, name: &str) -> Result<Numbers, 
         _ => None,
     };
     let size = (picture.width(), picture.height());
-    check_memory(size, channels, bytes.len(), name)?;
+    check_memory(sniff(bytes), size, channels, bytes.len(), name)?;
     Ok(Numbers { size, channels, has_alpha: color.has_alpha(), bits, data: floats(&picture), colored })
 }
 
@@ -157,7 +163,7 @@ fn tiff_numbers(bytes: &[u8], name: &str) -> Result<Numbers, CarrierError> {
     let size = decoder.dimensions().map_err(broken)?;
     let kind = decoder.colortype().map_err(broken)?;
     let channels = u32::from(kind.num_samples());
-    check_memory(size, channels, bytes.len(), name)?;
+    check_memory(sniff(bytes), size, channels, bytes.len(), name)?;
     let mut limits = Limits::default();
     limits.decoding_buffer_size = MOST_BYTES as usize;
     limits.intermediate_buffer_size = MOST_BYTES as usize;
@@ -208,7 +214,7 @@ fn exr_channels(bytes: &[u8], name: &str) -> Result<((u32, u32), Planes), Carrie
     for header in &meta.headers {
         let (width, height) = (header.layer_size.x(), header.layer_size.y());
         let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        check_memory((side(width), side(height)), header.channels.list.len() as u32, bytes.len(), name)?;
+        check_memory(Format::Exr, (side(width), side(height)), header.channels.list.len() as u32, bytes.len(), name)?;
     }
     let reader = read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer().all_attributes();
     let image: Image<Layer<AnyChannels<FlatSamples>>> = reader.from_buffered(Cursor::new(bytes)).map_err(broken)?;

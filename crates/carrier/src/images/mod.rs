@@ -21,11 +21,15 @@ const MOST_PIXELS_PER_SIDE: u32 = 32_768;
 const MOST_BYTES: u64 = 2 << 30;
 
 /// Deflate makes at most 1032 bytes of one, and a byte of a picture holds at most 8 pixels: a file
-/// that claims more pixels per byte than this is damaged or hostile. The start is for headers.
+/// that claims more pixels per byte than this is damaged or hostile.
 const MOST_PIXELS_PER_BYTE: u64 = 1032 * 8;
 
-/// Pixels that any header may claim, however short the file.
-const PIXELS_ALWAYS_ALLOWED: u64 = 1 << 20;
+/// The same where nothing is deflated: runs of TGA and BMP make 128 pixels of a byte and more; a JPEG of one color
+/// comes to 170, and what holds anything stays far below. A flipped bit in its header would take gigabytes.
+const MOST_PIXELS_PER_BYTE_OF_RUNS: u64 = 128;
+
+/// Pixels that any header may claim, however short the file: what is drawn in one color is small.
+const PIXELS_ALWAYS_ALLOWED: u64 = 8 << 20;
 
 /// What a file's bytes are, whatever its name says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -160,7 +164,7 @@ type Reader<'a> = ImageReader<Cursor<&'a [u8]>>;
 fn open<'a>(bytes: &'a [u8], decoder: ImageFormat, name: &str) -> Result<Reader<'a>, CarrierError> {
     let sized = ImageReader::with_format(Cursor::new(bytes), decoder).into_dimensions();
     let (width, height) = sized.map_err(|e| broken(sniff(bytes), name, e))?;
-    check_size(width, height, bytes.len(), name)?;
+    check_size(sniff(bytes), width, height, bytes.len(), name)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), decoder);
     let mut limits = Limits::default();
     (limits.max_image_width, limits.max_image_height) = (Some(MOST_PIXELS_PER_SIDE), Some(MOST_PIXELS_PER_SIDE));
@@ -175,9 +179,13 @@ pub(crate) fn jpeg_ends(bytes: &[u8]) -> bool {
     memchr::memmem::find(&bytes[last_scan..], b"\xFF\xD9").is_some()
 }
 
-fn check_size(width: u32, height: u32, bytes: usize, name: &str) -> Result<(), CarrierError> {
+fn check_size(format: Format, width: u32, height: u32, bytes: usize, name: &str) -> Result<(), CarrierError> {
     let pixels = u64::from(width) * u64::from(height);
-    let possible = PIXELS_ALWAYS_ALLOWED + bytes as u64 * MOST_PIXELS_PER_BYTE;
+    let per_byte = match format {
+        Format::Png | Format::Tiff => MOST_PIXELS_PER_BYTE,
+        _ => MOST_PIXELS_PER_BYTE_OF_RUNS,
+    };
+    let possible = PIXELS_ALWAYS_ALLOWED + bytes as u64 * per_byte;
     let too_large = width.max(height) > MOST_PIXELS_PER_SIDE || pixels * 4 > MOST_BYTES;
     if pixels > 0 && pixels <= possible && !too_large {
         return Ok(());

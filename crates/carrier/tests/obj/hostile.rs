@@ -112,6 +112,19 @@ fn a_header_that_claims_too_much_is_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn a_jpeg_whose_size_was_damaged_is_refused_before_memory_is_taken() {
+    let picture = image::RgbImage::from_fn(256, 256, |x, y| image::Rgb([x as u8, y as u8, (x * y) as u8]));
+    let mut jpeg = Vec::new();
+    image::codecs::jpeg::JpegEncoder::new(&mut jpeg).encode_image(&picture).unwrap();
+    assert_eq!(images::decode(&jpeg, "a.jpg").unwrap().width, 256);
+    let frame = jpeg.windows(2).position(|marker| marker == [0xFF, 0xC0]).unwrap();
+    // 20,480 x 20,480: decoding would take 3 bytes for each.
+    jpeg[frame + 5..frame + 9].copy_from_slice(&[0x50, 0, 0x50, 0]);
+    let error = images::decode(&jpeg, "a.jpg").unwrap_err().to_string();
+    assert!(error.contains("a.jpg") && error.contains("20480 x 20480"), "{error}");
+}
+
+#[test]
 fn the_same_for_any_number_of_threads() {
     // Several chunks, with indices that reach back into earlier ones and polygons of all sizes.
     let mut text = String::new();

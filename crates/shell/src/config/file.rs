@@ -41,7 +41,11 @@ pub fn from_file(fields: &Fields, path: &Path) -> Result<Settings, Failure> {
     Ok(settings)
 }
 
-fn from_toml(fields: &Fields, path: &Path, text: &str) -> Result<Settings, Failure> {
+/// What the text of a file gives; `path` stands in messages, and its paths start from there.
+///
+/// # Errors
+/// As [`from_file`].
+pub fn from_toml(fields: &Fields, path: &Path, text: &str) -> Result<Settings, Failure> {
     let reader = Reader { fields, path, text };
     let table = DeTable::parse(text).map_err(|error| {
         let place = error.span().unwrap_or_default();

@@ -9,6 +9,6 @@ mod value;
 
 pub use env::from_environment;
 pub use fields::{Field, Fields, Kind, nearest};
-pub use file::{asset_file, from_file, project_file};
+pub use file::{asset_file, from_file, from_toml, project_file};
 pub use settings::{Given, Origin, Settings};
 pub use value::{from_json, from_text};
