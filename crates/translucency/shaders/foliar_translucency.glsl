@@ -1,4 +1,4 @@
-// Light through leaves of FOLIAR_foliage, to be included in a fragment shader (docs/translucency.md explains each step).
+// Light through leaves of FOLIAR_foliage, to be included in a fragment shader (docs/translucency-runtime.md explains each step).
 // No bindings: texels, scale, bias and curve are read by whoever includes this. Tests run it against the f64 evaluator.
 
 // Light in the frame of a map. `light` points toward the light, `tangent` and `bitangent` along the image (right, up) on
