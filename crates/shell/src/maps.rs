@@ -185,6 +185,9 @@ struct Wanted<'a> {
     given: Map<String, Value>,
 }
 
+/// What makes two sets of maps the same: the file of each map, and what was given for them.
+type Source = (Vec<(String, PathBuf)>, Map<String, Value>);
+
 /// Reads the maps of a room.
 ///
 /// # Errors
@@ -196,7 +199,7 @@ pub fn gather(gathering: &Gathering, baker: &dyn Baker, entries: &[Entry]) -> Re
         None => vec![alone(gathering, baker, entries)?],
     };
     let mut shelf = Shelf { gathering, read: BTreeMap::new() };
-    let mut known: Vec<(Vec<(String, PathBuf)>, Map<String, Value>)> = Vec::new();
+    let mut known: Vec<Source> = Vec::new();
     for material in wanted {
         let mut files = Vec::new();
         for (map, entry) in &material.entries {

@@ -211,8 +211,11 @@ fn models(plant: &Plant, optics: &Optics, sun: &Sun) -> Result<[Vec<f64>; 6]> {
     ])
 }
 
+/// Optical depths and nine numbers of each leaf.
+type OfRays = (Vec<[f32; 8]>, Vec<[f64; 9]>);
+
 /// Depths and nine numbers of the room's ray engine.
-fn rays(plant: &Plant) -> Result<(Vec<[f32; 8]>, Vec<[f64; 9]>)> {
+fn rays(plant: &Plant) -> Result<OfRays> {
     let maps = Maps::new();
     let inputs = Inputs { plant: Some(plant), maps: &maps, neighbors: &[] };
     let given = json!({ "engine": "rays", "sun": "harmonics" }).as_object().cloned().unwrap_or_default();

@@ -241,8 +241,7 @@ impl Leaf {
     /// [`ModelError::Depth`] for a negative depth or NaN, [`ModelError::Direction`] for a normal of no length.
     pub fn new(depths: [f64; OCTANTS], normal: DVec3) -> Result<Leaf, ModelError> {
         for (octant, &value) in depths.iter().enumerate() {
-            // Not-a-number fails the comparison.
-            if !(value >= 0.0) {
+            if value.is_nan() || value < 0.0 {
                 return Err(ModelError::Depth { octant, value });
             }
         }
