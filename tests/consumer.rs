@@ -67,7 +67,8 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
 fn radii(shares: &[[f64; 3]]) -> Vec<f64> {
     let middle = [0, 1].map(|axis| mean(shares.iter().map(|s| s[axis])));
     let spread = [0, 1].map(|axis| mean(shares.iter().map(|s| (s[axis] - middle[axis]).powi(2))).sqrt());
-    let radius = |s: &[f64; 3]| ((s[0] - middle[0]) / spread[0]).hypot((s[1] - middle[1]) / spread[1]);
+    let radius =
+        |s: &[f64; 3]| glam::DVec2::from_array([0, 1].map(|axis| (s[axis] - middle[axis]) / spread[axis])).length();
     shares.iter().map(radius).collect()
 }
 
