@@ -1,11 +1,16 @@
 //! The room's values: weights of every vertex.
 
-use crate::bark::{Hidden, coming_out};
+use crate::bark::Fitted;
+use crate::joint::{self, Joint};
 use crate::leaves;
-use crate::sway::{Rule, Sway, Weights};
-use foliar_plant::{Branches, LEVELS, NO_BRANCH, OnBranch, Plant};
+use crate::sway::{Exit, Rule, Weights};
+use crate::wood::Wood;
+use foliar_plant::{Branches, LEVELS, NO_BRANCH, Plant};
 use foliar_schema::Role;
 use rayon::prelude::*;
+
+/// Faces of a branch lie no farther along it than so many radii from the bark that they are nearest to.
+const LEAF_WINDOW: f64 = 2.0;
 
 /// What the room gives.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,14 +25,20 @@ pub struct Values {
 
 /// Values of a plant with branches.
 pub fn values(plant: &Plant, branches: &Branches, rule: Rule) -> Values {
-    let coming = coming_out(plant, branches, rule.exit);
-    let sway = Sway::new(branches, rule, coming.iter().map(|c| c.start).collect());
-    let hidden = Hidden::solve(plant, &sway, &coming);
-    let of_leaf: Vec<[f32; LEVELS]> = branches.leaves.par_iter().map(|place| of_leaf(&sway, place)).collect();
+    let wood = Wood::new(plant, branches);
+    let joints = match rule.exit {
+        Exit::Bark => joint::joints(&wood, branches),
+        Exit::Root => vec![Joint::default(); branches.count()],
+    };
+    let fitted = Fitted::new(&wood, branches, rule, &joints);
+    let of_leaf: Vec<[f32; LEVELS]> = (0..branches.leaves.len())
+        .into_par_iter()
+        .map(|leaf| leaves::on_branch(plant, &wood, &fitted, leaf, Some(LEAF_WINDOW)))
+        .collect();
     let weights = (0..plant.parts().len())
         .map(|part| match plant.role(part) {
             _ if branches.count() == 0 => Vec::new(),
-            Role::Wood => of_wood(plant, &sway, &hidden, part),
+            Role::Wood => of_wood(plant, &fitted, part),
             Role::Leaf => {
                 let weights = |vertex| plant.leaf_of(part, vertex).map_or([0.0; LEVELS], |leaf| of_leaf[leaf as usize]);
                 (0..plant.parts()[part].positions.len()).map(weights).collect()
@@ -35,25 +46,16 @@ pub fn values(plant: &Plant, branches: &Branches, rule: Rule) -> Values {
             Role::Other => Vec::new(),
         })
         .collect();
-    Values { weights, leaf_weights: leaves::own_weights(plant), longest_m: sway.longest_m }
+    Values { weights, leaf_weights: leaves::own_weights(plant), longest_m: fitted.sway.longest_m }
 }
 
-fn of_wood(plant: &Plant, sway: &Sway, hidden: &Hidden, part: usize) -> Vec<[f32; LEVELS]> {
-    let places = &sway.branches.vertices[part];
-    let of = |vertex: usize| match (hidden.get(part, vertex), places.get(vertex)) {
-        (Some(weights), _) => weights.map(|w| w as f32),
-        (None, Some(place)) if place.branch != NO_BRANCH => {
-            sway.of_ring(place.branch, f64::from(place.arc)).map(|w| w as f32)
+fn of_wood(plant: &Plant, fitted: &Fitted, part: usize) -> Vec<[f32; LEVELS]> {
+    let places = &fitted.sway.branches.vertices[part];
+    let of = |vertex: usize| match places.get(vertex) {
+        Some(place) if place.branch != NO_BRANCH => {
+            fitted.of((part as u32, vertex as u32), place.branch, place.arc.into()).map(|w| w as f32)
         }
         _ => [0.0; LEVELS],
     };
     (0..plant.parts()[part].positions.len()).into_par_iter().map(of).collect()
-}
-
-/// A leaf moves as the bark does where it hangs.
-pub(crate) fn of_leaf(sway: &Sway, place: &OnBranch) -> [f32; LEVELS] {
-    match place.branch {
-        NO_BRANCH => [0.0; LEVELS],
-        branch => sway.on_bark(branch, f64::from(place.arc)).map(|w| w as f32),
-    }
 }

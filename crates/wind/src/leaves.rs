@@ -1,7 +1,10 @@
 //! Leaves: the weights of the place on the branch where each hangs, and its own weight from petiole to tip.
 
-use foliar_plant::{Leaf, Plant};
+use crate::bark::Fitted;
+use crate::wood::Wood;
+use foliar_plant::{LEVELS, Leaf, NO_BRANCH, Plant};
 use foliar_schema::Role;
+use foliar_space::closest_on_triangle;
 use glam::DVec3;
 
 /// Centers nearer to the petiole than this share of the leaf's reach give no axis.
@@ -28,6 +31,50 @@ impl Blade {
             None => place.distance(self.petiole),
         }
     }
+}
+
+/// A leaf moves as the bark does where it hangs: at the place of its branch's faces that is nearest to the bark between the
+/// axis and the petiole. Faces are sought `window` radii up and down, or everywhere.
+pub(crate) fn on_branch(
+    plant: &Plant,
+    wood: &Wood,
+    fitted: &Fitted,
+    leaf: usize,
+    window: Option<f64>,
+) -> [f32; LEVELS] {
+    let (place, branches) = (fitted.sway.branches.leaves[leaf], fitted.sway.branches);
+    if place.branch == NO_BRANCH {
+        return [0.0; LEVELS];
+    }
+    let spot = branches.axes[place.branch as usize].at(place.arc.into());
+    let toward = (plant.leaves()[leaf].petiole.as_dvec3() - spot.point).normalize_or(DVec3::Y);
+    let bark = spot.point + toward * spot.radius - plant.center();
+    let window = window.map_or(f64::INFINITY, |radii| radii * spot.radius);
+    let mut best = (f64::INFINITY, None);
+    for face in wood.between(place.branch, spot.arc - window, spot.arc + window) {
+        let corners = face.vertices().map(|v| wood.place(v));
+        // Relative to the bark, so that f32 is as fine as the face is small.
+        let near = closest_on_triangle(glam::Vec3::ZERO, corners.map(|c| (c - bark).as_vec3())).as_dvec3();
+        if near.length_squared() < best.0 {
+            best = (near.length_squared(), Some((face.vertices(), corners.map(|c| c - bark), near)));
+        }
+    }
+    let weights = match best.1 {
+        Some((vertices, corners, near)) => {
+            let powers = fitted.powers(wood, place.branch, vertices, shares(near, corners));
+            fitted.sway.roots(powers)
+        }
+        None => fitted.sway.on_bark(place.branch, place.arc.into()),
+    };
+    weights.map(|w| w as f32)
+}
+
+/// Shares of a triangle's corners at a place in it.
+fn shares(place: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
+    let area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).length();
+    let (of_a, of_b, of_c) = (area(place, b, c), area(place, c, a), area(place, a, b));
+    let all = (of_a + of_b + of_c).max(f64::MIN_POSITIVE);
+    [of_a / all, of_b / all, of_c / all]
 }
 
 /// Own weight of every vertex of leaves, by part; empty for other parts. Rows of a crown volume are no leaves

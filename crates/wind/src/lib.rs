@@ -4,6 +4,7 @@
 mod bark;
 pub mod fast;
 mod frames;
+mod joint;
 mod leaves;
 pub mod motion;
 pub mod noise;
@@ -17,6 +18,7 @@ mod room;
 mod sway;
 #[cfg(test)]
 mod tests;
+mod wood;
 
 pub use frames::{frame, phases};
 pub use motion::{Gust, LeafGust};

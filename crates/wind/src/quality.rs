@@ -6,7 +6,7 @@ use crate::noise::Field;
 use crate::player::Player;
 use foliar_plant::{LEVELS, NO_BRANCH, OnBranch, Plant};
 use foliar_schema::Role;
-use foliar_space::{Beam, RayError, Rays, TriangleTree};
+use foliar_space::{Beam, Hit, RayError, Rays, TriangleTree};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -23,7 +23,7 @@ pub struct Joint {
     parent_part: usize,
     /// Corners of the triangle and their shares.
     triangle: ([u32; 3], [f64; 3]),
-    /// Radius of the branch at its root.
+    /// Radius of the branch where it is pierced, or at its root where that is more: a tip laid to a point has none.
     radius: f64,
 }
 
@@ -79,18 +79,24 @@ fn of_edge(plant: &Plant, wood: &Wood, part: usize, (from, to): (u32, u32)) -> O
     let row = branches.rows.get(a.branch as usize).filter(|row| row.parent != NO_BRANCH && a.branch == b.branch)?;
     let attachment = &branches.attachments[a.branch as usize];
     let thick = f64::from(row.radius + branches.rows[row.parent as usize].radius);
-    if f64::from(a.arc.min(b.arc)) > attachment.bark_arc + NEAR_ROOT * thick {
+    let reach = attachment.bark_arc + NEAR_ROOT * thick;
+    if f64::from(a.arc.min(b.arc)) > reach {
         return None;
     }
     let data = &plant.parts()[part];
     let [start, end] = [from, to].map(|v| (data.rest_position(v as usize) - plant.center()).as_vec3());
     let way = end - start;
     let beam = Beam { origin: start, direction: way.try_normalize()?, reach: way.length() };
+    let ends = [from, to].map(|v| data.position_ids[v as usize]);
+    // What shares a corner with its parent is one surface with it: it cannot come apart.
+    let is_apart = |part: usize, v: u32| !ends.contains(&plant.parts()[part].position_ids[v as usize]);
     let of_parent = |triangle: u32| {
         let (part, corners) = wood.triangles[triangle as usize];
-        branches.vertices[part].get(corners[0] as usize).is_some_and(|place| place.branch == row.parent)
+        let parents = branches.vertices[part].get(corners[0] as usize).is_some_and(|place| place.branch == row.parent);
+        parents && corners.iter().all(|v| is_apart(part, *v))
     };
-    let hit = wood.rays.nearest(&beam, None, |hit| of_parent(hit.triangle))?;
+    let reach_of = |hit: &Hit| f64::from(a.arc + (b.arc - a.arc) * (hit.distance / way.length()));
+    let hit = wood.rays.nearest(&beam, None, |hit| of_parent(hit.triangle) && reach_of(hit) <= reach)?;
     let (parent_part, corners) = wood.triangles[hit.triangle as usize];
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
     Some(Joint {
@@ -98,7 +104,7 @@ fn of_edge(plant: &Plant, wood: &Wood, part: usize, (from, to): (u32, u32)) -> O
         edge: ([from, to], f64::from(hit.distance / way.length())),
         parent_part,
         triangle: (corners, [1.0 - u - v, u, v]),
-        radius: f64::from(row.radius),
+        radius: branches.axes[a.branch as usize].at(reach_of(&hit)).radius.max(row.radius.into()),
     })
 }
 
@@ -225,7 +231,8 @@ pub fn percentile(mut values: Vec<f64>, share: f64) -> f64 {
 /// [`RayError`] where the wood cannot be shot at.
 pub fn measure(plant: &Plant, player: &Player, gusts: &[Gust], noise: &Field) -> Result<Quality, RayError> {
     let (joints, hangings) = (joints(plant)?, hangings(plant));
-    let rest = with_normals(plant, player.moved(player.still(), noise));
+    let smooth = Smooth::new(plant);
+    let rest = smooth.normals(plant, player.moved(player.still(), noise));
     let seen = seen(plant, &joints);
     let (mut slips, mut leaves) = (vec![0.0f64; joints.len()], vec![0.0f64; hangings.len()]);
     let (mut angles, mut uncorrected, mut stretches) = (Vec::new(), Vec::new(), Vec::new());
@@ -238,7 +245,7 @@ pub fn measure(plant: &Plant, player: &Player, gusts: &[Gust], noise: &Field) ->
             let bark: DVec3 = (0..3).map(|k| shift(h.part, h.corners[k]) * h.shares[k]).sum();
             *worst = worst.max(shift(h.leaf.0, h.leaf.1).distance(bark) / h.size.max(f64::MIN_POSITIVE));
         }
-        let truth = with_normals(plant, moved.clone());
+        let truth = smooth.normals(plant, moved.clone());
         for part in (0..plant.parts().len()).filter(|&part| plant.role(part) == Role::Wood) {
             let angle = |a: DVec3, b: DVec3| 2.0 * libm::asin((a.distance(b) / 2.0).min(1.0)).to_degrees();
             let seen = (0..moved[part].len()).filter(|v| seen[part][*v]);
@@ -280,20 +287,41 @@ fn stretch(rest: &[Vertex], moved: &[Vertex], [a, b, _]: [u32; 3]) -> f64 {
     if before > 0.0 { (after / before).max(before / after.max(f64::MIN_POSITIVE)) } else { 1.0 }
 }
 
-/// The same places with normals of their triangles, weighted by area, over vertices that share a position.
-fn with_normals(plant: &Plant, mut places: Vec<Vec<Vertex>>) -> Vec<Vec<Vertex>> {
-    let mut sums = vec![DVec3::ZERO; plant.base().position_count as usize];
-    for (part, list) in plant.parts().iter().zip(&places) {
-        for &[a, b, c] in &part.triangles {
-            let [p, q, r] = [a, b, c].map(|v| list[v as usize].position);
-            let cross = (q - p).cross(r - p);
-            [a, b, c].into_iter().for_each(|v| sums[part.position_ids[v as usize] as usize] += cross);
-        }
+/// Which vertices share a normal: those of a branch at one position, be they copies along a seam or corners of a file whose
+/// triangles share nothing.
+struct Smooth {
+    /// Per part, per vertex.
+    slots: Vec<Vec<u32>>,
+}
+
+impl Smooth {
+    fn new(plant: &Plant) -> Smooth {
+        let of = |part: usize| {
+            let data = &plant.parts()[part];
+            let branch = |v: u32| plant.branches()?.vertices[part].get(v as usize).map(|place| place.branch);
+            let key = |v: u32| (branch(v), data.positions[v as usize].to_array().map(f32::to_bits));
+            let mut order: Vec<u32> = (0..data.positions.len() as u32).collect();
+            order.sort_by_cached_key(|v| key(*v));
+            let mut slots = vec![0u32; order.len()];
+            for (slot, same) in order.chunk_by(|a, b| key(*a) == key(*b)).enumerate() {
+                same.iter().for_each(|&v| slots[v as usize] = slot as u32);
+            }
+            slots
+        };
+        Smooth { slots: (0..plant.parts().len()).map(of).collect() }
     }
-    for (part, list) in plant.parts().iter().zip(&mut places) {
-        for (vertex, id) in list.iter_mut().zip(&part.position_ids) {
-            vertex.normal = sums[*id as usize].normalize_or(vertex.normal);
+
+    /// The same places with normals of their triangles, weighted by area.
+    fn normals(&self, plant: &Plant, mut places: Vec<Vec<Vertex>>) -> Vec<Vec<Vertex>> {
+        for ((part, list), slots) in plant.parts().iter().zip(&mut places).zip(&self.slots) {
+            let mut sums = vec![DVec3::ZERO; slots.len()];
+            for &[a, b, c] in &part.triangles {
+                let [p, q, r] = [a, b, c].map(|v| list[v as usize].position);
+                let cross = (q - p).cross(r - p);
+                [a, b, c].into_iter().for_each(|v| sums[slots[v as usize] as usize] += cross);
+            }
+            list.iter_mut().zip(slots).for_each(|(v, slot)| v.normal = sums[*slot as usize].normalize_or(v.normal));
         }
+        places
     }
-    places
 }

@@ -1,32 +1,28 @@
-//! The shortest program for the same values: every vertex against every triangle, nothing gathered before. What tests
-//! compare the fast one with; it shares the weights along a branch (`sway`) with it, not the bark rule nor leaves.
+//! The shortest program for the same values: every edge of a branch against every face of its parent, every leaf against every
+//! face of its branch, nothing gathered before. What tests compare the fast one with; it shares with it the weights along a
+//! branch (`sway`) and what follows from the crossings (`bark`).
 
-use crate::bark::TOUCH;
-use crate::fast::{Values, of_leaf};
-use crate::leaves::Blade;
-use crate::sway::{Rule, Sway, Weights};
+use crate::bark::Fitted;
+use crate::fast::Values;
+use crate::joint::{self, Crossing, Joint};
+use crate::leaves::{self, Blade};
+use crate::sway::Rule;
+use crate::wood::{Face, Vertex, Wood};
 use foliar_plant::{Branches, LEVELS, NO_BRANCH, OnBranch, Plant};
 use foliar_schema::Role;
 use glam::DVec3;
-use std::collections::BTreeSet;
-
-/// Halvings that find where an edge pierces the bark.
-const HALVINGS: usize = 50;
 
 /// Values of a plant with branches.
 pub fn values(plant: &Plant, branches: &Branches, rule: Rule) -> Values {
-    let coming: Vec<(f64, BTreeSet<(usize, usize)>)> =
-        (0..branches.count()).map(|branch| coming_out(plant, branches, branch)).collect();
-    let sway = Sway::new(branches, rule, coming.iter().map(|c| c.0).collect());
+    let wood = Wood::new(plant, branches);
+    let joints: Vec<Joint> = (0..branches.count() as u32).map(|branch| joint(&wood, branches, branch)).collect();
+    let fitted = Fitted::new(&wood, branches, rule, &joints);
     let weight = |part: usize, vertex: usize| -> [f32; LEVELS] {
         let place = branches.vertices[part].get(vertex).copied().unwrap_or(OnBranch::NONE);
         match plant.leaf_of(part, vertex) {
-            Some(leaf) => of_leaf(&sway, &branches.leaves[leaf as usize]),
+            Some(leaf) => leaves::on_branch(plant, &wood, &fitted, leaf as usize, None),
             None if place.branch == NO_BRANCH => [0.0; LEVELS],
-            None => match coming[place.branch as usize].1.contains(&(part, vertex)) {
-                true => hidden(plant, &sway, &coming[place.branch as usize].1, (part, vertex)).map(|w| w as f32),
-                false => sway.of_ring(place.branch, f64::from(place.arc)).map(|w| w as f32),
-            },
+            None => fitted.of((part as u32, vertex as u32), place.branch, place.arc.into()).map(|w| w as f32),
         }
     };
     let all = |part: usize| 0..plant.parts()[part].positions.len();
@@ -36,69 +32,47 @@ pub fn values(plant: &Plant, branches: &Branches, rule: Rule) -> Values {
     let leaf =
         |part: usize| all(part).filter(move |_| plant.role(part) == Role::Leaf).map(move |v| own(plant, part, v));
     let leaf_weights = parts.clone().map(|part| leaf(part).collect());
-    Values { weights: weights.collect(), leaf_weights: leaf_weights.collect(), longest_m: sway.longest_m }
+    Values { weights: weights.collect(), leaf_weights: leaf_weights.collect(), longest_m: fitted.sway.longest_m }
 }
 
-/// Distance to the bark of a branch, below 0 inside, and where.
-fn outside(branches: &Branches, parent: u32, place: DVec3) -> (f64, f64) {
-    let spot = branches.axes[parent as usize].nearest(place);
-    (spot.distance - spot.radius * (1.0 - TOUCH), spot.arc)
-}
-
-/// Arc length of the first ring wholly outside, and the vertices inside before it.
-fn coming_out(plant: &Plant, branches: &Branches, branch: usize) -> (f64, BTreeSet<(usize, usize)>) {
-    let row = branches.rows[branch];
-    let mut inside = BTreeSet::new();
+/// Every edge of a branch near its root against every face of its parent.
+fn joint(wood: &Wood, branches: &Branches, branch: u32) -> Joint {
+    let row = &branches.rows[branch as usize];
     if row.parent == NO_BRANCH {
-        return (0.0, inside);
+        return Joint::default();
     }
-    let mut list = Vec::new();
-    for (part, places) in branches.vertices.iter().enumerate() {
-        let own = places.iter().enumerate().filter(|(_, place)| place.branch as usize == branch);
-        list.extend(own.map(|(vertex, place)| (place.arc, part, vertex)));
-    }
-    let mut arcs: Vec<f32> = list.iter().map(|v| v.0).collect();
-    arcs.sort_by(f32::total_cmp);
-    for arc in arcs {
-        let ring = list.iter().filter(|v| v.0.total_cmp(&arc).is_eq());
-        let is_in =
-            |v: &&(f32, usize, usize)| outside(branches, row.parent, plant.parts()[v.1].rest_position(v.2)).0 < 0.0;
-        let below: Vec<_> = ring.filter(is_in).map(|v| (v.1, v.2)).collect();
-        if below.is_empty() {
-            return (f64::from(arc), inside);
+    let own: Vec<Face> = wood.between(branch, 0.0, f64::INFINITY).copied().collect();
+    let reach = joint::reach(branches, branch);
+    let mut edges: Vec<[Vertex; 2]> = own
+        .iter()
+        .map(Face::vertices)
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[a, b]| if (wood.arc(a), wood.key(a)) <= (wood.arc(b), wood.key(b)) { [a, b] } else { [b, a] })
+        .filter(|[low, _]| f64::from(wood.arc(*low)) <= reach)
+        .collect();
+    edges.sort_by_key(|ends| ends.map(|v| wood.key(v)));
+    edges.dedup_by_key(|ends| ends.map(|v| wood.key(v)));
+    let mut crossings = Vec::new();
+    for ends in edges {
+        for face in wood.between(row.parent, 0.0, f64::INFINITY) {
+            if let Some((share, shares)) = pierce(ends.map(|v| wood.place(v)), face.vertices().map(|v| wood.place(v))) {
+                crossings
+                    .push((ends.map(|v| wood.key(v)), Crossing { ends: [0; 2], share, face: face.vertices(), shares }));
+            }
         }
-        inside.extend(below);
     }
-    (branches.attachments[branch].bark_arc.min(branches.axes[branch].length()), BTreeSet::new())
+    joint::gathered(wood, crossings, branches, branch)
 }
 
-/// Least squares over the edges that pierce the bark at a hidden place.
-fn hidden(plant: &Plant, sway: &Sway, inside: &BTreeSet<(usize, usize)>, vertex: (usize, usize)) -> Weights {
-    let (part, branches) = (&plant.parts()[vertex.0], sway.branches);
-    let branch = branches.vertices[vertex.0][vertex.1].branch;
-    let (position, parent) = (part.positions[vertex.1], branches.rows[branch as usize].parent);
-    let (mut sum, mut total) = ([0.0; LEVELS], 0.0);
-    for (from, to) in part.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]) {
-        let far = branches.vertices[vertex.0][to as usize];
-        if part.positions[from as usize] != position
-            || branches.vertices[vertex.0][from as usize].branch != branch
-            || far.branch != branch
-            || inside.contains(&(vertex.0, to as usize))
-        {
-            continue;
-        }
-        let (start, end) = (part.rest_position(from as usize), part.rest_position(to as usize));
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *if outside(branches, parent, start.lerp(end, middle)).0 < 0.0 { &mut low } else { &mut high } = middle;
-        }
-        let of_parent = sway.powers_on_bark(parent, outside(branches, parent, start.lerp(end, high)).1);
-        let of_end = sway.powers(sway.of_ring(branch, f64::from(far.arc)));
-        total += (1.0 - high) * (1.0 - high);
-        (0..LEVELS).for_each(|l| sum[l] += (1.0 - high) * (of_parent[l] - high * of_end[l]));
-    }
-    if total > 0.0 { sway.roots(sum.map(|s| s / total)) } else { sway.inherited[branch as usize] }
+/// By volumes: the ends lie on both sides of the triangle, and the line goes round all its sides the same way.
+fn pierce([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
+    let volume = |a: DVec3, b: DVec3, c: DVec3, d: DVec3| (b - a).cross(c - a).dot(d - a);
+    let (above, below) = (volume(a, b, c, p), -volume(a, b, c, q));
+    let around = [volume(p, q, b, c), volume(p, q, c, a), volume(p, q, a, b)];
+    let (through, all) = (above + below, around.iter().sum::<f64>());
+    let shares = around.map(|x| x / all);
+    let inside = above * below >= 0.0 && shares.iter().all(|x| *x >= 0.0);
+    inside.then_some((above / through, shares)).filter(|(share, _)| share.is_finite())
 }
 
 /// A leaf vertex's own weight.

@@ -6,8 +6,8 @@ use foliar_plant::Branches;
 use foliar_schema::{Scene, names};
 use serde_json::{Map, Value, json};
 
-/// What false position and another order of sums may move a weight of a hidden vertex: some 1e-9, below the rounding
-/// to f32, in steps of 1e-3.
+/// What another way to find the same crossings may move a weight at a joint: some 1e-9, below the rounding to f32, in steps
+/// of 1e-3.
 const EXACT_STEPS: f64 = 0.001;
 
 /// The wind room.
@@ -20,7 +20,7 @@ impl Baker for Wind {
     }
 
     fn version(&self) -> u32 {
-        1
+        2
     }
 
     fn about(&self) -> &'static str {

@@ -76,18 +76,17 @@ impl<'a> Sway<'a> {
                 *longest = longest.max(axis.length() - start);
             }
         }
-        let inherited = Vec::with_capacity(branches.count());
-        let mut sway = Sway { branches, rule, starts, longest_m, inherited };
-        for (row, attachment) in branches.rows.iter().zip(&branches.attachments) {
-            let place = match rule.exit {
-                Exit::Bark => attachment.bark_parent_arc,
-                Exit::Root => attachment.axis_arc,
-            };
-            // A parent's id is below its child's: its own are there already.
-            let of_parent = if row.parent == NO_BRANCH { [0.0; LEVELS] } else { sway.on_bark(row.parent, place) };
-            sway.inherited.push(of_parent);
-        }
-        sway
+        Sway { branches, rule, starts, longest_m, inherited: vec![[0.0; LEVELS]; branches.count()] }
+    }
+
+    /// Weights of the parent's bark where a branch's axis comes out of it: the paper's rule asks where the axes meet.
+    pub fn at_attachment(&self, branch: usize) -> Weights {
+        let (row, attachment) = (&self.branches.rows[branch], &self.branches.attachments[branch]);
+        let place = match self.rule.exit {
+            Exit::Bark => attachment.bark_parent_arc,
+            Exit::Root => attachment.axis_arc,
+        };
+        if row.parent == NO_BRANCH { [0.0; LEVELS] } else { self.on_bark(row.parent, place) }
     }
 
     /// Weights of a ring of a branch.

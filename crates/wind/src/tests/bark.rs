@@ -29,30 +29,47 @@ fn quality(plant: &Plant) -> Quality {
     measure(plant, &player, &gusts, &noise).unwrap()
 }
 
-/// Trees whose joints are those of tubes that cross or touch, and what each may slip (99th percentile, greatest) beyond
-/// the gate of .08 and .15 radii: parents of three sides are far inside their circles, and a branch twice as thick as its
-/// parent comes out over many of its rings.
-const TREES: [(&str, [f64; 2]); 9] = [
-    ("clean", [0.08, 0.15]),
-    ("seam-doubled", [0.08, 0.15]),
-    ("touching", [0.08, 0.15]),
-    ("palm", [0.08, 0.15]),
-    ("shrub-7-stems", [0.08, 0.15]),
-    ("whorls", [0.08, 0.15]),
-    ("coincident-rings", [0.08, 0.15]),
-    ("fat-children", [0.12, 0.2]),
-    ("three-sided-twigs", [0.25, 0.3]),
+/// Trees whose joints are those of tubes that cross or touch. Parents of three sides are far inside the circles that their
+/// radii tell, and a branch twice as thick as its parent comes out over many of its rings: all the same.
+const TREES: [&str; 9] = [
+    "clean",
+    "seam-doubled",
+    "touching",
+    "palm",
+    "shrub-7-stems",
+    "whorls",
+    "coincident-rings",
+    "fat-children",
+    "three-sided-twigs",
 ];
 
 #[test]
 fn no_twig_slides_on_its_parent() {
-    for (name, [p99, most]) in TREES {
+    for name in TREES {
         let q = quality(&hard_tree(name, 1).unwrap().plant);
-        assert!(q.slip_p99 <= p99 && q.slip_max <= most && q.joints > 500, "{name}: {q:?}");
-        // Gates of the issue: weights .02, leaves .01 of their size, normals 2 degrees.
-        assert!(q.leaf_p99 <= 0.01 && q.normals_p99_deg <= 2.0, "{name}: {q:?}");
-        assert!(q.step_max <= 0.02 || name == "fat-children", "{name}: {q:?}");
+        // Gates of the issue: slip .08 and .15 radii, weights .02, leaves .01 of their size, normals 2 degrees.
+        assert!(q.slip_p99 <= 0.08 && q.slip_max <= 0.15 && q.joints > 500, "{name}: {q:?}");
+        assert!(q.step_max <= 0.02 && q.leaf_p99 <= 0.01 && q.normals_p99_deg <= 2.0, "{name}: {q:?}");
         assert!(q.uncorrected_p99_deg > 2.0 * q.normals_p99_deg, "{name}: {q:?}");
+    }
+}
+
+#[test]
+fn copies_of_a_place_keep_together() {
+    for name in ["seam-doubled", "soup"] {
+        let plant = hard_tree(name, 1).unwrap().plant;
+        let branches = plant.branches().unwrap();
+        let values = fast::values(&plant, branches, (&Params::default()).into());
+        let mut list = Vec::new();
+        for (part, places) in branches.vertices.iter().enumerate().filter(|(part, _)| plant.role(*part) == Role::Wood) {
+            let bits = |v: usize| plant.parts()[part].positions[v].to_array().map(f32::to_bits);
+            let weights = |v: usize| values.weights[part][v].map(f32::to_bits);
+            list.extend(places.iter().enumerate().map(|(v, place)| (place.branch, bits(v), weights(v))));
+        }
+        list.sort_unstable();
+        let copies = list.windows(2).filter(|w| (w[0].0, w[0].1) == (w[1].0, w[1].1));
+        let apart = copies.clone().filter(|w| w[0].2 != w[1].2).count();
+        assert!(apart == 0 && copies.count() > 1000, "{name}: {apart} copies apart");
     }
 }
 
@@ -120,8 +137,10 @@ fn a_clean_branch_starts_at_its_first_ring_outside() {
     let third = (1.0f64 / 3.0) as f32;
     for (ring, own) in [(4, 0.0), (5, third), (6, 1.0)] {
         let [stem, bough, ..] = weights(ring);
-        // Powers of two rings with a square root between: a few roundings.
-        assert!((stem - 0.5).abs() < 1e-6 && (bough - own).abs() < 1e-6, "{:?}", weights(ring));
+        // The bough's bark is 0.2 m high on either side of the trunk's middle, where the square of the weight grows by
+        // 0.05 below and 0.15 above a meter: what it inherits lies between.
+        let power = f64::from(stem * stem);
+        assert!((0.24..0.28).contains(&power) && (bough - own).abs() < 1e-6, "{:?}", weights(ring));
     }
     // Arc lengths of straight axes: exact but for the rounding of an arc to f32.
     assert!(values.longest_m.iter().zip([10.0, 3.0, 0.0, 0.0]).all(|(a, b)| (a - b).abs() < 1e-6));
