@@ -19,7 +19,7 @@ pub enum Engine {
     Exact,
     /// Leaves that are far stand together.
     Tree,
-    /// Rays from points on the leaf: sees the shape of leaves, their cut-outs, and wood. 30 times as slow as `tree`.
+    /// Rays from points on the leaf: sees the shape of leaves, their cut-outs, and wood; many times as slow as `tree`.
     Rays,
 }
 

@@ -66,8 +66,8 @@ fn joint(wood: &Wood, branches: &Branches, branch: u32) -> Joint {
         .collect();
     let parent_around = parent.iter().map(|(around, _)| *around).fold(Aabb::EMPTY, Aabb::union);
     let mut edges = edges(wood, &own, &parent_around, reach);
-    edges.sort_by(|a, b| a.0.cmp(&b.0));
-    edges.dedup_by(|a, b| a.0 == b.0);
+    edges.sort_by_key(|edge| edge.0);
+    edges.dedup_by_key(|edge| edge.0);
     let mut crossings: Vec<([Key; 2], Crossing)> = Vec::new();
     for (keys, [a, b]) in &edges {
         let ends = [*a, *b].map(|v| wood.place(v));
