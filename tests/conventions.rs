@@ -1,7 +1,10 @@
 //! The conventions of every program (house rules, section 6): one walk over all programs and all flags.
 
-use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, LEAFSCAN, NOISE, PACK, Run, VIEW, folder, run_in, text, tree};
+use crate::common::{
+    CHECK, DENSITY, FOLIAR, IMPORT, LEAFSCAN, NOISE, PACK, Run, TRANSLUCENCY, VIEW, folder, run_in, text, tree,
+};
 use crate::leafscan::leaf;
+use crate::translucency::thickness;
 use foliar_bake::Baker;
 use foliar_programs::BAKERS;
 use serde_json::{Value, json};
@@ -24,7 +27,7 @@ const OBJ: &[&str] = &["tree.obj", "tree.mtl"];
 
 /// Commands that are no room's of a tree: as one types them, program, output and what they read.
 #[rustfmt::skip]
-const COMMANDS: [(&str, &str, Option<&str>, &[&str]); 14] = [
+const COMMANDS: [(&str, &str, Option<&str>, &[&str]); 15] = [
     ("foliar bake tree.obj -o bake.glb", FOLIAR, Some("bake.glb"), OBJ),
     ("foliar rebake baked.glb -o rebake.glb --up z", FOLIAR, Some("rebake.glb"), &["baked.glb"]),
     ("foliar assemble plant.glb density.layer -o assemble.gltf --up z", FOLIAR, Some("assemble.gltf"),
@@ -35,6 +38,8 @@ const COMMANDS: [(&str, &str, Option<&str>, &[&str]); 14] = [
     ("foliar-import tree.obj -o import.glb", IMPORT, Some("import.glb"), OBJ),
     ("foliar-noise -o noise.png --size 64 --kmax 16", NOISE, Some("noise.png"), &[]),
     ("foliar-leafscan leaf.obj -o leaf.exr --resolution 32", LEAFSCAN, Some("leaf.exr"), &["leaf.obj"]),
+    ("foliar-translucency tree.obj --thickness leaf.png --leaf-width-mm 60 --thickness-scale-mm 0.4 -o translucency.glb",
+        TRANSLUCENCY, Some("translucency.glb"), &["tree.obj", "tree.mtl", "leaf.png"]),
     ("foliar-view tree.obj -o view.png --width-px 64 --height-px 48 --samples 1", VIEW, Some("view.png"), OBJ),
     ("foliar-pack baked.glb -o pack.glb --for core --up z", PACK, Some("pack.glb"), &["baked.glb"]),
     ("foliar-check tree.obj", CHECK, None, OBJ),
@@ -70,6 +75,7 @@ fn prepared() -> tempfile::TempDir {
     let here = folder();
     tree(here.path(), 20);
     leaf(here.path(), &[]);
+    thickness(here.path(), "leaf.png", 16, 0.1);
     run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "baked.glb"]).expect(0, &[]);
     run_in(here.path(), IMPORT, &["tree.obj", "-o", "plant.glb"]).expect(0, &[]);
     run_in(here.path(), DENSITY, &["plant.glb", "-o", "density.layer"]).expect(0, &[]);
