@@ -21,6 +21,7 @@ const SAID_ELSEWHERE: &[(&str, &str)] = &[
     ("NEIGHBOR-", "baking beside neighbors"),
     ("PACK-", "packing"),
     ("QUALITY-MISSED", "baking a room"),
+    ("SCAN-", "scanning a leaf"),
 ];
 
 fn is_rule(code: &str) -> bool {

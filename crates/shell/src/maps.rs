@@ -2,26 +2,28 @@
 //! share all of it. What a record keeps of a file is its name, from the asset's folder on, and its hash; a re-bake
 //! finds it by that.
 
+mod materials;
+mod shelf;
+
 use crate::Failure;
 use crate::bake_one::Baking;
-use crate::config::{Fields, Given, Origin, Settings, from_text};
+use crate::config::{Fields, Given, Origin, Settings};
 use crate::load::Loaded;
 use crate::options::is_dash;
 use crate::plan::Row;
 use crate::report::Report;
-use foliar_bake::{Baker, FloatRaster, Layer, MapRaster, Maps};
-use foliar_plant::{AlphaMode, Plant};
-use foliar_schema::{Finding, Import, Role, code, names};
-use globset::{GlobBuilder, GlobMatcher};
+use foliar_bake::{Baker, Layer, Maps};
+use foliar_plant::Plant;
+use foliar_schema::Finding;
+use materials::{alone, by_material};
 use serde_json::{Map, Value};
-use std::collections::{BTreeMap, BTreeSet};
+use shelf::{Shelf, own_alpha};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Parameters that say which material a map or another parameter belongs to.
 const MATERIAL: &str = "material";
 const FOR_MATERIAL: &str = "for_material";
-/// Alpha of a blended material from which it counts as leaf.
-const BLEND_CUTOFF: f32 = 0.5;
 
 /// One map as it was given.
 #[derive(Clone, Debug, PartialEq)]
@@ -273,287 +275,4 @@ pub fn embed_all(layer: &mut Layer) {
     if !layer.rasters.is_empty() {
         layer.record.resolved.insert("embed_all".into(), true.into());
     }
-}
-
-/// The one set of maps that stand alone.
-fn alone<'a>(gathering: &Gathering, baker: &dyn Baker, entries: &'a [Entry]) -> Result<Wanted<'a>, Failure> {
-    let mut of_map: BTreeMap<&str, &Entry> = BTreeMap::new();
-    for entry in entries {
-        if let Some(other) = of_map.insert(&entry.map, entry) {
-            let text = format!(
-                "map {} is given twice, {} and {}: without a tree one leaf is baked at a time",
-                entry.map,
-                other.file.display(),
-                entry.file.display()
-            );
-            return Err(Failure::usage(text));
-        }
-    }
-    if let Some(entry) = of_map.get(names::MAP_BACKLIT) {
-        let text = format!("{}: a backlit photograph is passed on into a tree: name the tree", entry.origin);
-        return Err(Failure::usage(text));
-    }
-    Ok(Wanted { name: String::new(), entries: of_map, given: own_given(gathering, baker, None)? })
-}
-
-/// Names of the leaf materials of a plant, in the order of the file.
-fn leaf_materials(plant: &Plant) -> Vec<String> {
-    let parts = plant.parts().iter().enumerate().filter(|(index, _)| plant.role(*index) == Role::Leaf);
-    let used: BTreeSet<u32> = parts.filter_map(|(_, part)| part.material).collect();
-    let mut found: Vec<String> = Vec::new();
-    for index in used {
-        let name = material_name(plant, index);
-        if !found.contains(&name) {
-            found.push(name);
-        }
-    }
-    found
-}
-
-/// The name of a material, or its number in words, as the carrier links it.
-fn material_name(plant: &Plant, index: u32) -> String {
-    let own = plant.base().materials.get(index as usize).and_then(|material| material.name.clone());
-    own.filter(|name| !name.is_empty()).unwrap_or_else(|| format!("material {index}"))
-}
-
-fn by_material<'a>(
-    gathering: &Gathering,
-    baker: &dyn Baker,
-    entries: &'a [Entry],
-    plant: &Plant,
-    findings: &mut Vec<Finding>,
-) -> Result<Vec<Wanted<'a>>, Failure> {
-    let leaves = leaf_materials(plant);
-    let listed = || if leaves.is_empty() { "none".to_owned() } else { leaves.join(", ") };
-    let unnamed = unnamed_patterns(gathering, baker)?;
-    let mut of: BTreeMap<&str, BTreeMap<&str, &Entry>> = BTreeMap::new();
-    for entry in entries {
-        let patterns = match &entry.pattern {
-            Some(text) => vec![Pattern::new(text)?],
-            None => unnamed.clone(),
-        };
-        let hit: Vec<&String> = leaves.iter().filter(|name| patterns.iter().any(|p| p.matches(name))).collect();
-        let hit = match (patterns.is_empty(), leaves.as_slice()) {
-            (true, [only]) => vec![only],
-            (true, []) => Vec::new(),
-            (true, _) => {
-                let text = format!(
-                    "map {} ({}): the tree has {} leaf materials, {}: say which with --material NAME or NAME=FILE",
-                    entry.map,
-                    entry.origin,
-                    leaves.len(),
-                    listed()
-                );
-                return Err(Failure::usage(text));
-            }
-            _ => hit,
-        };
-        if hit.is_empty() {
-            let text = format!(
-                "map {} {} ({}) is for no leaf material of this tree; there are: {}",
-                entry.map,
-                entry.file.display(),
-                entry.origin,
-                listed()
-            );
-            if matches!(entry.origin, Origin::Flag(_)) {
-                return Err(Failure::usage(text));
-            }
-            findings.push(Finding::new(&code::MAP_UNUSED, text));
-        }
-        for name in hit {
-            let maps = of.entry(name.as_str()).or_default();
-            if let Some(other) = maps.insert(&entry.map, entry) {
-                let text = format!(
-                    "map {} of material {name} is given twice, {} and {}: give one of them",
-                    entry.map,
-                    other.file.display(),
-                    entry.file.display()
-                );
-                return Err(Failure::usage(text));
-            }
-        }
-    }
-    let wanted = leaves.iter().filter_map(|name| Some((name, of.remove(name.as_str())?)));
-    let wanted = wanted.map(|(name, entries)| {
-        Ok(Wanted { name: name.clone(), entries, given: own_given(gathering, baker, Some(name))? })
-    });
-    wanted.collect()
-}
-
-/// A pattern over names of materials, case ignored, as patterns of roles are.
-#[derive(Clone)]
-struct Pattern(GlobMatcher, String);
-
-impl Pattern {
-    fn new(text: &str) -> Result<Pattern, Failure> {
-        let glob = GlobBuilder::new(&text.to_lowercase()).build();
-        let glob = glob.map_err(|e| Failure::usage(format!("material {text:?}: is no pattern: {}", e.kind())))?;
-        Ok(Pattern(glob.compile_matcher(), text.to_lowercase()))
-    }
-
-    fn matches(&self, name: &str) -> bool {
-        let name = name.to_lowercase();
-        // A name that holds what a pattern takes for special still means itself.
-        self.1 == name || self.0.is_match(name)
-    }
-}
-
-fn texts<'a>(gathering: &'a Gathering, baker: &dyn Baker, key: &str) -> impl Iterator<Item = (&'a str, &'a Given)> {
-    let given = gathering.settings.get(&format!("{}.{key}", baker.room()));
-    given.into_iter().flat_map(|given| {
-        given.value.as_array().into_iter().flatten().filter_map(Value::as_str).map(move |text| (text, given))
-    })
-}
-
-/// Patterns of materials that maps without a name belong to.
-fn unnamed_patterns(gathering: &Gathering, baker: &dyn Baker) -> Result<Vec<Pattern>, Failure> {
-    texts(gathering, baker, MATERIAL).map(|(text, _)| Pattern::new(text)).collect()
-}
-
-/// What was given for a material: the section, and over it what is for this material alone.
-fn own_given(gathering: &Gathering, baker: &dyn Baker, name: Option<&str>) -> Result<Map<String, Value>, Failure> {
-    let mut given = gathering.settings.given(baker.room());
-    for field in gathering.fields.section(baker.room()).filter(|field| field.map.is_some()) {
-        given.shift_remove(field.path.last().map_or("", String::as_str));
-    }
-    given.shift_remove(MATERIAL);
-    given.shift_remove(FOR_MATERIAL);
-    for (text, from) in texts(gathering, baker, FOR_MATERIAL) {
-        let refuse = |why: String| Failure::usage(format!("{}: {FOR_MATERIAL} {text:?}: {why}", from.origin));
-        let form = || refuse("must be MATERIAL:KEY=VALUE, such as Needle*:leaf_width_mm=2".into());
-        let (place, value) = text.split_once('=').ok_or_else(form)?;
-        let (pattern, key) = place.rsplit_once(':').ok_or_else(form)?;
-        let field = gathering.fields.find(&format!("{}.{}", baker.room(), key.trim())).map_err(refuse)?;
-        if field.map.is_some() || [MATERIAL, FOR_MATERIAL].contains(&key.trim()) {
-            return Err(refuse("maps are given as MATERIAL=FILE".into()));
-        }
-        let value = from_text(field, value.trim()).map_err(refuse)?;
-        if name.is_none_or(|name| Pattern::new(pattern.trim()).is_ok_and(|p| p.matches(name))) {
-            given.insert(key.trim().into(), value);
-        }
-    }
-    Ok(given)
-}
-
-/// A file that was read.
-struct Found {
-    hash: String,
-    bytes: Vec<u8>,
-}
-
-/// Files, each read once.
-struct Shelf<'a> {
-    gathering: &'a Gathering<'a>,
-    read: BTreeMap<PathBuf, Found>,
-}
-
-impl Shelf<'_> {
-    /// Where a map lies: as it was given, or, by its name, in the asset's folder or a searched one.
-    fn find(&self, entry: &Entry) -> Result<PathBuf, Failure> {
-        if !matches!(entry.origin, Origin::Record(_)) {
-            return Ok(entry.file.clone());
-        }
-        let input = self.gathering.input;
-        let folder = if is_dash(input) { Path::new("") } else { input.parent().unwrap_or(Path::new("")) };
-        let search = self.gathering.settings.section::<Import>("import")?.search;
-        let file = foliar_carrier::paths::resolve(&entry.name, folder, &search, &entry.origin.to_string())?;
-        if file.is_file() {
-            return Ok(file);
-        }
-        let remedy = format!("put it there, name its folder with --search, or give it again with --{}", entry.map);
-        Err(Failure::Input(format!("map {} ({}) is not there: {remedy}", file.display(), entry.origin)))
-    }
-
-    fn read(&mut self, file: &Path) -> Result<&Found, Failure> {
-        if !self.read.contains_key(file) {
-            let unreadable = |e| {
-                let remedy = "name a readable PNG, TIFF or EXR";
-                Failure::Input(format!("{}: cannot be read: {e}: {remedy}", file.display()))
-            };
-            let bytes = std::fs::read(file).map_err(unreadable)?;
-            let hash = blake3::hash(&bytes).to_hex().to_string();
-            self.read.insert(file.to_path_buf(), Found { hash, bytes });
-        }
-        Ok(&self.read[file])
-    }
-
-    fn sheet(
-        &mut self,
-        wanted: &Wanted,
-        files: &[(String, PathBuf)],
-        own_alpha: Option<MapRaster>,
-        findings: &mut Vec<Finding>,
-    ) -> Result<Sheet, Failure> {
-        let mut sheet = Sheet {
-            name: wanted.name.clone(),
-            materials: vec![wanted.name.clone()],
-            given: wanted.given.clone(),
-            files: files.iter().cloned().collect(),
-            ..Sheet::default()
-        };
-        let mut alpha = None;
-        for (map, file) in files {
-            let name = file.display().to_string();
-            let found = self.read(file)?;
-            let entry = wanted.entries.get(map.as_str());
-            sheet.reads.insert(format!("map/{}", entry.map_or(map.as_str(), |e| &e.name)), found.hash.clone());
-            if map == names::MAP_BACKLIT {
-                sheet.pictures.insert(names::PICTURE_COLOR.into(), photograph(&found.bytes, &name)?);
-                continue;
-            }
-            let read = foliar_carrier::images::read_map(&found.bytes, &name)?;
-            findings.extend(read.findings);
-            if map == names::MAP_THICKNESS {
-                alpha = read.alpha;
-            }
-            sheet.maps.insert(map.clone(), read.map);
-        }
-        if !sheet.maps.contains_key(names::MAP_ALPHA)
-            && let Some(thickness) = sheet.maps.get(names::MAP_THICKNESS)
-        {
-            let (width, height) = (thickness.raster.width, thickness.raster.height);
-            let alpha = alpha.or_else(|| own_alpha.map(|own| resampled(&own, width, height)));
-            sheet.maps.extend(alpha.map(|alpha| (names::MAP_ALPHA.to_owned(), alpha)));
-        }
-        Ok(sheet)
-    }
-}
-
-/// A photograph that a glTF can hold as it is.
-fn photograph(bytes: &[u8], name: &str) -> Result<Vec<u8>, Failure> {
-    let format = foliar_carrier::images::sniff(bytes);
-    if format.gltf_mime().is_none() {
-        let text = format!("{name}: is {}, and a glTF holds PNG or JPEG: convert the photograph to PNG", format.name());
-        return Err(Failure::Input(text));
-    }
-    foliar_carrier::images::decode(bytes, name)?;
-    Ok(bytes.to_vec())
-}
-
-/// Where the color of a material says that there is leaf: 1 or 0.
-fn own_alpha(plant: Option<&Plant>, name: &str) -> Option<MapRaster> {
-    let base = plant?.base();
-    let index =
-        (0..base.materials.len() as u32).find(|index| plant.is_some_and(|p| material_name(p, *index) == name))?;
-    let material = base.materials.get(index as usize)?;
-    let cutoff = match material.alpha_mode {
-        AlphaMode::Opaque => return None,
-        AlphaMode::Mask(cutoff) => cutoff,
-        AlphaMode::Blend => BLEND_CUTOFF,
-    };
-    let raster = base.rasters.get(material.base_color_raster? as usize).filter(|raster| raster.has_alpha)?;
-    let factor = material.base_color[3];
-    let alpha = |pixel: &[u8]| if f32::from(pixel[3]) / 255.0 * factor >= cutoff { 1.0 } else { 0.0 };
-    let data = raster.rgba.chunks_exact(4).map(alpha).collect();
-    Some(MapRaster { raster: FloatRaster { width: raster.width, height: raster.height, channels: 1, data }, bits: 8 })
-}
-
-/// A mask at another size: the texel in the middle of each.
-fn resampled(mask: &MapRaster, width: u32, height: u32) -> MapRaster {
-    let own = &mask.raster;
-    let at = |to: u32, size: u32, from: u32| (u64::from(2 * to + 1) * u64::from(from) / u64::from(2 * size)) as usize;
-    let texel = |y: u32, x: u32| own.data[at(y, height, own.height) * own.width as usize + at(x, width, own.width)];
-    let data = (0..height).flat_map(|y| (0..width).map(move |x| texel(y, x))).collect();
-    MapRaster { raster: FloatRaster { width, height, channels: 1, data }, bits: mask.bits }
 }

@@ -1,0 +1,138 @@
+//! Files of maps, each read once, and the sets that they make.
+
+use super::materials::material_name;
+use super::{Entry, Gathering, Sheet, Wanted};
+use crate::Failure;
+use crate::config::Origin;
+use crate::options::is_dash;
+use foliar_bake::{FloatRaster, MapRaster};
+use foliar_plant::{AlphaMode, Plant};
+use foliar_schema::{Finding, Import, names};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Alpha of a blended material from which it counts as leaf.
+const BLEND_CUTOFF: f32 = 0.5;
+
+/// A file that was read.
+pub(super) struct Found {
+    hash: String,
+    bytes: Vec<u8>,
+}
+
+/// Files, each read once.
+pub(super) struct Shelf<'a> {
+    pub gathering: &'a Gathering<'a>,
+    pub read: BTreeMap<PathBuf, Found>,
+}
+
+impl Shelf<'_> {
+    /// Where a map lies: as it was given, or, by its name, in the asset's folder or a searched one.
+    pub fn find(&self, entry: &Entry) -> Result<PathBuf, Failure> {
+        if !matches!(entry.origin, Origin::Record(_)) {
+            return Ok(entry.file.clone());
+        }
+        let input = self.gathering.input;
+        let folder = if is_dash(input) { Path::new("") } else { input.parent().unwrap_or(Path::new("")) };
+        let search = self.gathering.settings.section::<Import>("import")?.search;
+        let file = foliar_carrier::paths::resolve(&entry.name, folder, &search, &entry.origin.to_string())?;
+        if file.is_file() {
+            return Ok(file);
+        }
+        let remedy = format!("put it there, name its folder with --search, or give it again with --{}", entry.map);
+        Err(Failure::Input(format!("map {} ({}) is not there: {remedy}", file.display(), entry.origin)))
+    }
+
+    fn read(&mut self, file: &Path) -> Result<&Found, Failure> {
+        if !self.read.contains_key(file) {
+            let unreadable = |e| {
+                let remedy = "name a readable PNG, TIFF or EXR";
+                Failure::Input(format!("{}: cannot be read: {e}: {remedy}", file.display()))
+            };
+            let bytes = std::fs::read(file).map_err(unreadable)?;
+            let hash = blake3::hash(&bytes).to_hex().to_string();
+            self.read.insert(file.to_path_buf(), Found { hash, bytes });
+        }
+        Ok(&self.read[file])
+    }
+
+    /// Reads one set.
+    pub fn sheet(
+        &mut self,
+        wanted: &Wanted,
+        files: &[(String, PathBuf)],
+        own_alpha: Option<MapRaster>,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Sheet, Failure> {
+        let mut sheet = Sheet {
+            name: wanted.name.clone(),
+            materials: vec![wanted.name.clone()],
+            given: wanted.given.clone(),
+            files: files.iter().cloned().collect(),
+            ..Sheet::default()
+        };
+        let mut alpha = None;
+        for (map, file) in files {
+            let name = file.display().to_string();
+            let found = self.read(file)?;
+            let entry = wanted.entries.get(map.as_str());
+            sheet.reads.insert(format!("map/{}", entry.map_or(map.as_str(), |e| &e.name)), found.hash.clone());
+            if map == names::MAP_BACKLIT {
+                sheet.pictures.insert(names::PICTURE_COLOR.into(), photograph(&found.bytes, &name)?);
+                continue;
+            }
+            let read = foliar_carrier::images::read_map(&found.bytes, &name)?;
+            findings.extend(read.findings);
+            if map == names::MAP_THICKNESS {
+                alpha = read.alpha;
+            }
+            sheet.maps.insert(map.clone(), read.map);
+        }
+        if !sheet.maps.contains_key(names::MAP_ALPHA)
+            && let Some(thickness) = sheet.maps.get(names::MAP_THICKNESS)
+        {
+            let (width, height) = (thickness.raster.width, thickness.raster.height);
+            let alpha = alpha.or_else(|| own_alpha.map(|own| resampled(&own, width, height)));
+            sheet.maps.extend(alpha.map(|alpha| (names::MAP_ALPHA.to_owned(), alpha)));
+        }
+        Ok(sheet)
+    }
+}
+
+/// A photograph that a glTF can hold as it is.
+fn photograph(bytes: &[u8], name: &str) -> Result<Vec<u8>, Failure> {
+    let format = foliar_carrier::images::sniff(bytes);
+    if format.gltf_mime().is_none() {
+        let text = format!("{name}: is {}, and a glTF holds PNG or JPEG: convert the photograph to PNG", format.name());
+        return Err(Failure::Input(text));
+    }
+    foliar_carrier::images::decode(bytes, name)?;
+    Ok(bytes.to_vec())
+}
+
+/// Where the color of a material says that there is leaf: 1 or 0.
+pub(super) fn own_alpha(plant: Option<&Plant>, name: &str) -> Option<MapRaster> {
+    let base = plant?.base();
+    let index =
+        (0..base.materials.len() as u32).find(|index| plant.is_some_and(|p| material_name(p, *index) == name))?;
+    let material = base.materials.get(index as usize)?;
+    let cutoff = match material.alpha_mode {
+        AlphaMode::Opaque => return None,
+        AlphaMode::Mask(cutoff) => cutoff,
+        AlphaMode::Blend => BLEND_CUTOFF,
+    };
+    let raster = base.rasters.get(material.base_color_raster? as usize).filter(|raster| raster.has_alpha)?;
+    let factor = material.base_color[3];
+    let alpha = |pixel: &[u8]| if f32::from(pixel[3]) / 255.0 * factor >= cutoff { 1.0 } else { 0.0 };
+    let data = raster.rgba.chunks_exact(4).map(alpha).collect();
+    Some(MapRaster { raster: FloatRaster { width: raster.width, height: raster.height, channels: 1, data }, bits: 8 })
+}
+
+/// A mask at another size: the texel in the middle of each.
+fn resampled(mask: &MapRaster, width: u32, height: u32) -> MapRaster {
+    let own = &mask.raster;
+    let at = |to: u32, size: u32, from: u32| (u64::from(2 * to + 1) * u64::from(from) / u64::from(2 * size)) as usize;
+    let texel = |y: u32, x: u32| own.data[at(y, height, own.height) * own.width as usize + at(x, width, own.width)];
+    let data = (0..height).flat_map(|y| (0..width).map(move |x| texel(y, x))).collect();
+    MapRaster { raster: FloatRaster { width, height, channels: 1, data }, bits: mask.bits }
+}
