@@ -20,17 +20,21 @@ complete -c foliar-view -l samples -d 'Rays per pixel. [at least 1, at most 1024
 complete -c foliar-view -l look -d 'How the tree is lit, where no channel is asked for. [default "baked"]' -r -f -a "plain\t'As the file came: its own normals, the same ambient light everywhere.'
 baked\t'With what was baked: realigned normals, ambient coefficient.'
 stock\t'As any glTF viewer does without foliar\'s shaders: NORMAL turned by the triangle\'s side, `COLOR_0` as a factor on the color, back faces of one-sided materials left out, no shadows on the tree.'
-lines\t'A pen drawing: ink where the normals turn by more than `line_angle_deg`, and round the silhouette (Luft07 Figure 7).'"
+lines\t'A pen drawing: ink where the normals turn by more than `line_angle_deg`, and round the silhouette (Luft07 Figure 7).'
+light\t'Sun and sky by what the light room baked (Boulanger08): no shadow rays.'
+traced\t'The same light followed path by path, what `light` stands for: a path per ray, so ask for many samples.'"
 complete -c foliar-view -l line-normals -d 'Normals that `lines` follow. [default "baked"]' -r -f -a "plain\t'Those of the file.'
 baked\t'The realigned ones, where they were baked.'"
 complete -c foliar-view -l line-angle-deg -d 'Angle between the normals of neighboring places from which `lines` draw an edge, degrees. [degrees, at least 0, at most 180, default 40.0]' -r
 complete -c foliar-view -l line-width-px -d 'Width of `lines` in pixels. [pixels, at least 0.1, at most 16, default 1.2]' -r
 complete -c foliar-view -l line-detail-px -d 'Gaps and leaves smaller than this are left out of `lines`, pixels; 0 keeps all. [pixels, at least 0, at most 32, default 6.0]' -r
 complete -c foliar-view -l neighbor -d 'Plants that stand around it, `FILE@x,y,z[,yaw_deg[,scale]]` each, as `foliar bake` takes them.' -r
-complete -c foliar-view -l channel -d 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`; `role` shows what each part was taken for.' -r
+complete -c foliar-view -l channel -d 'Name of a channel or column to show in false colors instead, such as `_AMBIENT` or `foliarLeaf/group`; `_WIND_WEIGHTS[2]` shows its third number alone, `role` what each part was taken for, `petiole-length` how long leaves hang.' -r
 complete -c foliar-view -l azimuth-deg -d 'Where the camera stands around the tree, degrees. [degrees, at least -360, at most 360, default 30.0]' -r
 complete -c foliar-view -l elevation-deg -d 'How far the camera stands above the tree\'s horizon, degrees. [degrees, at least -89, at most 89, default 10.0]' -r
 complete -c foliar-view -l fov-deg -d 'Vertical opening of the camera, degrees. [degrees, at least 1, at most 120, default 30.0]' -r
+complete -c foliar-view -l target-m -d 'Point that the camera looks at, `x,y,z` in meters of the scene\'s rest frame; without one the whole plant is in the picture. [meters]' -r
+complete -c foliar-view -l distance-m -d 'Distance of the camera from the point that it looks at (the plant\'s center where none is given), meters; without one it stands where it would see the whole plant. [meters, above 0]' -r
 complete -c foliar-view -l sun-azimuth-deg -d 'Where the sun stands around the tree, degrees. [degrees, at least -360, at most 360, default 80.0]' -r
 complete -c foliar-view -l sun-elevation-deg -d 'Height of the sun above the horizon, degrees. [degrees, at least 1, at most 90, default 50.0]' -r
 complete -c foliar-view -l exposure -d 'Factor on all light. [above 0, at most 1000, default 1.0]' -r
@@ -62,7 +66,8 @@ json\t''
 sarif\t''
 junit\t''
 github\t''"
-complete -c foliar-view -l sheet -d 'Draws a contact sheet: plain, baked, difference, ambient coefficient'
+complete -c foliar-view -l sheet -d 'Draws a contact sheet: plain, baked, difference, ambient coefficient; with --look light two suns by model and by paths'
+complete -c foliar-view -l channels -d 'Draws a contact sheet of everything that the file holds, each with its legend'
 complete -c foliar-view -l no-config -d 'Reads neither foliar.toml nor the asset\'s own file'
 complete -c foliar-view -l dry-run -d 'Prints what would be done and stops'
 complete -c foliar-view -l check -d 'Writes nothing; status 1 where the output would change'

@@ -4,7 +4,7 @@ use crate::choose;
 use crate::crown::{Crown, EXACT, order_of};
 use crate::leaves::{Foliage, NO_GROUP, Query};
 use crate::octants::OCTANTS;
-use crate::params::{Engine, Params, SunModel};
+use crate::params::{DepthEngine, Params, SunModel};
 use crate::rays::{HARMONICS, Scene};
 use crate::{reference, ways};
 use foliar_bake::BakeError;
@@ -20,7 +20,7 @@ pub(crate) struct Values {
     pub wood: Vec<(usize, Vec<[f32; OCTANTS]>)>,
     /// Coefficients of the transmittance per leaf; empty where nobody asks.
     pub harmonics: Vec<[f32; HARMONICS]>,
-    pub engine: Engine,
+    pub engine: DepthEngine,
     /// Of the tree, where it was used.
     pub opening: Option<f64>,
     /// tau of Boulanger08.
@@ -65,13 +65,13 @@ pub(crate) fn values(plant: &Plant, params: &Params) -> Result<Values, BakeError
     let crown = Crown::new(&foliage.sources, params.profile);
     let leaves = &places.queries[..foliage.sources.len()];
     let mut values = Values { engine: params.engine, ..Values::default() };
-    let casts = params.engine == Engine::Rays || params.sun == SunModel::Harmonics;
+    let casts = params.engine == DepthEngine::Rays || params.sun == SunModel::Harmonics;
     let scene = if casts { Some(Scene::new(plant, &foliage)?) } else { None };
-    let depths = match scene.as_ref().filter(|_| params.engine == Engine::Rays) {
+    let depths = match scene.as_ref().filter(|_| params.engine == DepthEngine::Rays) {
         Some(scene) => scene.depths(&places.queries, &order_of(&places.queries), params.rays),
         None => {
             let chosen = choose::depths(&crown, &foliage.sources, &places.queries, params);
-            values.engine = if chosen.opening > EXACT { Engine::Tree } else { Engine::Exact };
+            values.engine = if chosen.opening > EXACT { DepthEngine::Tree } else { DepthEngine::Exact };
             values.opening = Some(chosen.opening);
             values.errors = chosen.errors;
             chosen.depths
@@ -95,7 +95,7 @@ pub(crate) fn reference_values(plant: &Plant, params: &Params) -> Values {
     let places = Places::new(plant, &foliage);
     let sums = reference::sums(&foliage.sources, &places.queries, params.profile);
     let mean_area = reference::mean_area(&foliage.sources);
-    let mut values = Values { engine: Engine::Exact, opening: Some(EXACT), ..Values::default() };
+    let mut values = Values { engine: DepthEngine::Exact, opening: Some(EXACT), ..Values::default() };
     values.set_medium(&foliage, mean_area, reference::extinction(&sums[..foliage.sources.len()], mean_area));
     values.deal_out(&places, sums.iter().map(|sum| sum.depth.map(|depth| depth as f32)).collect());
     values

@@ -5,7 +5,7 @@ use crate::crown::{Crown, EXACT, order_of};
 use crate::isa::Isa;
 use crate::leaves::{Query, Source};
 use crate::octants::OCTANTS;
-use crate::params::{Engine, Params};
+use crate::params::{DepthEngine, Params};
 use crate::profile::Profile;
 use crate::reference::{self, transmittance};
 use foliar_numerics::ErrorStats;
@@ -114,14 +114,14 @@ impl<'a> Asking<'a> {
 /// Depths at all queries, leaves first, by the engine that `params` name, or by the cheaper one.
 pub(crate) fn depths(crown: &Crown, sources: &[Source], queries: &[Query], params: &Params) -> Chosen {
     let leaves = sources.len();
-    let fixed = params.opening.filter(|_| params.engine != Engine::Exact);
+    let fixed = params.opening.filter(|_| params.engine != DepthEngine::Exact);
     let most = if fixed.is_some() { (MOST_PAIRS / leaves.max(1)).clamp(FEWEST, PLACES) } else { PLACES };
     let asking = Asking::new(crown, sources, queries, params.profile, most);
     let all = |opening: f64| crown.depths(queries, opening, Isa::best());
     let openings: Vec<f64> = fixed.map_or_else(|| OPENINGS.to_vec(), |opening| vec![opening]);
     let tries = |opening: &f64| match params.engine {
-        Engine::Exact => false,
-        Engine::Auto => fixed.is_some() || cost_of_tree(*opening, leaves) < cost_of_pairs(leaves),
+        DepthEngine::Exact => false,
+        DepthEngine::Auto => fixed.is_some() || cost_of_tree(*opening, leaves) < cost_of_pairs(leaves),
         _ => true,
     };
     let openings: Vec<f64> = openings.into_iter().filter(tries).collect();
@@ -130,7 +130,7 @@ pub(crate) fn depths(crown: &Crown, sources: &[Source], queries: &[Query], param
         for (rung, &opening) in openings.iter().enumerate() {
             let errors = asking.errors(&asking.depths(opening), &truth);
             // Who asks for the tree gets it; who leaves the choice gets every pair where no tree is good enough.
-            let is_last = rung + 1 == openings.len() && (fixed.is_some() || params.engine == Engine::Tree);
+            let is_last = rung + 1 == openings.len() && (fixed.is_some() || params.engine == DepthEngine::Tree);
             if is_last || worst(&errors) <= params.quality() {
                 return Chosen { depths: all(opening), opening, errors };
             }

@@ -25,6 +25,6 @@ mod tree;
 pub mod truth;
 pub mod ways;
 
-pub use params::{Engine, Params, SunModel};
+pub use params::{DepthEngine, Params, SunModel};
 pub use rays::{HARMONICS, harmonics, rays_at};
 pub use room::Light;

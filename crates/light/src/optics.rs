@@ -11,7 +11,7 @@ pub type Rgb = [f64; 3];
 /// so both sides are alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum LeafKind {
+pub enum OpticsKind {
     /// A broad leaf in summer.
     #[default]
     Typical,
@@ -37,14 +37,14 @@ pub struct Optics {
     pub transmittance_back: Rgb,
 }
 
-impl LeafKind {
+impl OpticsKind {
     /// Its optics.
     pub fn optics(self) -> Optics {
         let (reflectance, transmittance) = match self {
-            LeafKind::Typical => ([0.0712, 0.1512, 0.0413], [0.0626, 0.1503, 0.0014]),
-            LeafKind::Young => ([0.1094, 0.2002, 0.0429], [0.1771, 0.2903, 0.0174]),
-            LeafKind::Dark => ([0.0559, 0.1228, 0.0410], [0.0137, 0.0567, 0.0]),
-            LeafKind::Senescent => ([0.2856, 0.2821, 0.0678], [0.1591, 0.1484, 0.0107]),
+            OpticsKind::Typical => ([0.0712, 0.1512, 0.0413], [0.0626, 0.1503, 0.0014]),
+            OpticsKind::Young => ([0.1094, 0.2002, 0.0429], [0.1771, 0.2903, 0.0174]),
+            OpticsKind::Dark => ([0.0559, 0.1228, 0.0410], [0.0137, 0.0567, 0.0]),
+            OpticsKind::Senescent => ([0.2856, 0.2821, 0.0678], [0.1591, 0.1484, 0.0107]),
         };
         Optics {
             reflectance_front: reflectance,

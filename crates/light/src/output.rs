@@ -2,7 +2,7 @@
 
 use crate::bake::Values;
 use crate::optics::Optics;
-use crate::params::{Engine, Params, SunModel};
+use crate::params::{DepthEngine, Params, SunModel};
 use crate::profile::MOST_DEPTH;
 use foliar_bake::{Array, AttributeKey, Baked, ColumnKey};
 use foliar_plant::Plant;
@@ -20,7 +20,7 @@ pub(crate) fn empty(params: &Params) -> Baked {
 pub(crate) fn baked(plant: &Plant, values: &Values, optics: &Optics, params: &Params) -> Baked {
     let used = Params {
         engine: values.engine,
-        opening: values.opening.filter(|_| values.engine == Engine::Tree),
+        opening: values.opening.filter(|_| values.engine == DepthEngine::Tree),
         quality: Some(params.quality()),
         ..params.clone()
     };
@@ -87,7 +87,7 @@ fn facts(values: &Values, optics: &Optics, params: &Params) -> Map<String, Value
     if let Some(opening) = params.opening {
         facts.insert("opening".into(), json!(opening));
     }
-    if params.engine == Engine::Rays || params.sun == SunModel::Harmonics {
+    if params.engine == DepthEngine::Rays || params.sun == SunModel::Harmonics {
         facts.insert("raysPerOctant".into(), json!(params.rays));
     }
     facts

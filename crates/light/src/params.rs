@@ -1,6 +1,6 @@
 //! Parameters of the light room.
 
-use crate::optics::{LeafKind, Optics, Rgb};
+use crate::optics::{Optics, OpticsKind, Rgb};
 use crate::profile::Profile;
 use foliar_bake::BakeError;
 use foliar_schema::{Budget, names};
@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 /// How optical depths are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Engine {
+pub enum DepthEngine {
     /// `exact` or `tree`, whatever keeps the promise of `quality` in less time.
     #[default]
     Auto,
@@ -39,7 +39,7 @@ pub enum SunModel {
 #[serde(default, deny_unknown_fields)]
 pub struct Params {
     /// How optical depths are found.
-    pub engine: Engine,
+    pub engine: DepthEngine,
     /// How leaves are counted.
     pub profile: Profile,
     /// For `tree`: leaves stand together where they spread less than this times their distance; nothing said: as
@@ -56,7 +56,7 @@ pub struct Params {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub quality: Option<f64>,
     /// Kind of leaf: what it reflects and lets through.
-    pub leaf_kind: LeafKind,
+    pub leaf_kind: OpticsKind,
     /// Reflectance of the front, one number or red, green, blue; none: that of `leaf_kind`.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub reflectance_front: Vec<f64>,
@@ -74,13 +74,13 @@ pub struct Params {
 impl Default for Params {
     fn default() -> Self {
         Params {
-            engine: Engine::default(),
+            engine: DepthEngine::default(),
             profile: Profile::default(),
             opening: None,
             rays: 16,
             sun: SunModel::default(),
             quality: None,
-            leaf_kind: LeafKind::default(),
+            leaf_kind: OpticsKind::default(),
             reflectance_front: Vec::new(),
             reflectance_back: Vec::new(),
             transmittance_front: Vec::new(),
