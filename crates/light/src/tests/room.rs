@@ -214,8 +214,8 @@ fn kinds_of_leaves_are_those_of_the_shared_table() {
         return;
     };
     let table: Vec<Value> = serde_json::from_str(&text).unwrap();
-    use crate::optics::LeafKind;
-    let names = [LeafKind::Typical, LeafKind::Young, LeafKind::Dark, LeafKind::Senescent];
+    use crate::optics::OpticsKind;
+    let names = [OpticsKind::Typical, OpticsKind::Young, OpticsKind::Dark, OpticsKind::Senescent];
     for (kind, name) in names.into_iter().zip(["typical", "young-thin", "dark-thick", "senescent"]) {
         let optics = kind.optics();
         for (band, wavelength) in [610, 550, 450].into_iter().enumerate() {
