@@ -27,11 +27,11 @@ const FEWEST_EXACT: usize = 8;
 /// ratio counts.
 mod cost {
     /// A pair of leaf and place.
-    pub const PAIR: f64 = 0.5;
+    pub const PAIR: f64 = 1.5;
     /// A place of a tree, times the opening to the power below, and for each doubling of the leaves.
-    pub const PLACE: f64 = 40.0;
+    pub const PLACE: f64 = 124.0;
     /// Nodes that a place meets, by how wide they may be.
-    pub const POWER: f64 = -2.0;
+    pub const POWER: f64 = -1.4;
 }
 
 /// Depths, how they were found, and how far off they are.

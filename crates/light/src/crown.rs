@@ -1,7 +1,7 @@
 //! The leaves of a plant, ready to answer places: batches of queries, sums on all threads.
 
 use crate::isa::Isa;
-use crate::kernel::{Batch, Depths, LANES, Path, rounded_off};
+use crate::kernel::{Batch, Depths, LANES, rounded_off, sum};
 use crate::leaves::{NO_GROUP, Query, Source};
 use crate::octants::OCTANTS;
 use crate::profile::Profile;
@@ -36,9 +36,8 @@ impl Crown {
     /// than `opening` times their distance (below 1); [`EXACT`] opens all.
     pub fn depths(&self, queries: &[Query], opening: f64, isa: Isa) -> Vec<[f32; OCTANTS]> {
         let order = order_of(queries);
-        let path = Path::new(isa);
         let blocks: Vec<Depths> =
-            order.par_chunks(LANES).map(|block| path.sum(&self.tree, &self.batch(queries, block), opening)).collect();
+            order.par_chunks(LANES).map(|block| sum(isa, &self.tree, &self.batch(queries, block), opening)).collect();
         let mut depths = vec![[0.0; OCTANTS]; queries.len()];
         for (block, sums) in order.chunks(LANES).zip(&blocks) {
             for (lane, &query) in block.iter().enumerate() {

@@ -14,8 +14,8 @@ use serde_json::json;
 
 const RUNS: usize = 3;
 /// Openings that keep the error of a depth at a hundredth and at a thousandth of it: `light-40k-tree-...-error`.
-pub const PERCENT: f64 = 0.7;
-pub const PER_MILLE: f64 = 0.25;
+pub const PERCENT: f64 = 0.66;
+pub const PER_MILLE: f64 = 0.18;
 
 fn small() -> Recipe {
     Recipe { leaves: 1500, ..Recipe::linden() }

@@ -2,11 +2,13 @@
 //! instructions the processor has (Boulanger08 section 6.1).
 //!
 //! Each place has a lane of its own and meets leaves and nodes in the order of the tree, one by one: a lane's sum is
-//! the same sequence of IEEE operations whatever the width of the registers. Nothing is fused (rustc never contracts
-//! a * b + c), so all paths give the same bits.
+//! the same sequence of IEEE operations whatever the width of the registers. Nothing is fused, so all paths give the
+//! same bits.
 
 mod blocks;
 mod formulas;
+mod lanes;
+mod near;
 mod nodes;
 
 use crate::isa::Isa;
@@ -15,6 +17,7 @@ use crate::tree::{BLOCK, Node, Tree};
 use blocks::add_block;
 use glam::DVec3;
 use nodes::add_node;
+use pulp::{Simd, WithSimd};
 
 /// Places side by side.
 pub(crate) const LANES: usize = BLOCK;
@@ -40,74 +43,66 @@ pub(crate) struct Batch {
     pub reach: [DVec3; 2],
 }
 
-/// A path that this processor was seen to have: only [`Path::new`] makes one.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Path(Isa);
-
-impl Path {
-    /// The path of these instructions, or the plain one where the processor lacks them.
-    pub fn new(isa: Isa) -> Path {
-        Path(if Isa::available().contains(&isa) { isa } else { Isa::Plain })
+/// Depths of a batch on some instructions, or on plain ones where the processor lacks them; nodes wider than `opening`
+/// times their distance are opened, 0 opens all.
+pub(crate) fn sum(isa: Isa, tree: &Tree, batch: &Batch, opening: f64) -> Depths {
+    let work = Work { tree, batch, opening };
+    match isa {
+        #[cfg(target_arch = "x86_64")]
+        Isa::Avx512 => pulp::x86::V4::try_new().map_or_else(|| plain(work), |simd| Simd::vectorize(simd, work)),
+        #[cfg(target_arch = "x86_64")]
+        Isa::Avx2 => pulp::x86::V3::try_new().map_or_else(|| plain(work), |simd| Simd::vectorize(simd, work)),
+        #[cfg(target_arch = "aarch64")]
+        Isa::Neon => pulp::aarch64::Neon::try_new().map_or_else(|| plain(work), |simd| Simd::vectorize(simd, work)),
+        _ => plain(work),
     }
+}
 
-    /// Depths of a batch; nodes wider than `opening` times their distance are opened, 0 opens all.
-    #[cfg_attr(
-        target_arch = "x86_64",
-        expect(
-            unsafe_code,
-            reason = "run-time dispatch. Calling a function with target features is unsound only on a processor without \
-                      them; `self.0` is private and set only by `new`, which asked the processor."
-        )
-    )]
-    pub fn sum(self, tree: &Tree, batch: &Batch, opening: f64) -> Depths {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => unsafe { sum_avx2(tree, batch, opening) },
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => unsafe { sum_avx512(tree, batch, opening) },
-            _ => sum_by_profile::<8>(tree, batch, opening),
+fn plain(work: Work) -> Depths {
+    work.with_simd(pulp::Scalar128b)
+}
+
+/// What one batch asks.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    tree: &'a Tree,
+    batch: &'a Batch,
+    opening: f64,
+}
+
+impl WithSimd for Work<'_> {
+    type Output = Depths;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Depths {
+        match self.tree.profile {
+            Profile::Cap => self.sum::<true, S>(simd),
+            Profile::Paper => self.sum::<false, S>(simd),
         }
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sum_avx2(tree: &Tree, batch: &Batch, opening: f64) -> Depths {
-    sum_by_profile::<8>(tree, batch, opening)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn sum_avx512(tree: &Tree, batch: &Batch, opening: f64) -> Depths {
-    sum_by_profile::<16>(tree, batch, opening)
-}
-
-#[inline(always)]
-fn sum_by_profile<const W: usize>(tree: &Tree, batch: &Batch, opening: f64) -> Depths {
-    match tree.profile {
-        Profile::Cap => sum_batch::<true, W>(tree, batch, opening),
-        Profile::Paper => sum_batch::<false, W>(tree, batch, opening),
-    }
-}
-
-#[inline(always)]
-fn sum_batch<const CAP: bool, const W: usize>(tree: &Tree, batch: &Batch, opening: f64) -> Depths {
-    let mut total = [[0.0; LANES]; 8];
-    let mut index = 0;
-    while let Some(node) = tree.nodes.get(index) {
-        let near = gap_squared(node.low, node.high, &batch.reach);
-        let to_center = node.center.clamp(batch.reach[0], batch.reach[1]).distance_squared(node.center);
-        if node.stands_for_all(near, to_center * opening * opening) {
-            add_node::<W>(node, batch, &mut total);
-        } else if node.is_block() {
-            add_block::<CAP, W>(tree, node, near, batch, &mut total);
-        } else {
-            index += 1;
-            continue;
+impl Work<'_> {
+    #[inline(always)]
+    fn sum<const CAP: bool, S: Simd>(&self, simd: S) -> Depths {
+        let &Work { tree, batch, opening } = self;
+        let mut total = [[0.0; LANES]; 8];
+        let mut index = 0;
+        while let Some(node) = tree.nodes.get(index) {
+            let near = gap_squared(node.low, node.high, &batch.reach);
+            let to_center = node.center.clamp(batch.reach[0], batch.reach[1]).distance_squared(node.center);
+            if node.stands_for_all(near, to_center * opening * opening) {
+                add_node(simd, node, batch, &mut total);
+            } else if node.is_block() {
+                add_block::<CAP, S>(simd, (tree, node), near, batch, &mut total);
+            } else {
+                index += 1;
+                continue;
+            }
+            index = node.next as usize;
         }
-        index = node.next as usize;
+        total
     }
-    total
 }
 
 /// Squared distance between two boxes.
@@ -156,17 +151,4 @@ impl Node {
 #[inline(always)]
 pub(crate) fn rounded_off(exact: f64) -> f32 {
     (exact - f64::from(exact as f32)) as f32
-}
-
-/// Sixteen places, so many at a time.
-#[inline(always)]
-fn lanes<const W: usize>(from: &[f32; LANES], start: usize) -> [f32; W] {
-    std::array::from_fn(|lane| from[start + lane])
-}
-
-#[inline(always)]
-fn pour<const W: usize>(sums: &[f32; W], start: usize, total: &mut [f64; LANES]) {
-    for lane in 0..W {
-        total[start + lane] += f64::from(sums[lane]);
-    }
 }
