@@ -5,11 +5,12 @@ use glam::Vec2;
 
 /// Alpha of a part.
 pub(crate) struct Cover<'a> {
-    part: &'a Part,
     /// Where it has alpha that counts.
     raster: Option<&'a Raster>,
     factor: f32,
     mode: AlphaMode,
+    /// Of a mask, which texels stop light, row by row: an eighth of what the picture takes, so that caches hold it.
+    bits: Vec<u64>,
 }
 
 impl<'a> Cover<'a> {
@@ -23,28 +24,43 @@ impl<'a> Cover<'a> {
             let texels = raster.width as usize * raster.height as usize;
             texels > 0 && raster.rgba.len() == 4 * texels && raster.has_alpha && part.uvs.len() == part.positions.len()
         };
-        Cover { part, raster: raster.filter(whole), factor: material.map_or(1.0, |m| m.base_color[3]), mode }
+        let raster = raster.filter(whole);
+        let mut cover = Cover { raster, factor: material.map_or(1.0, |m| m.base_color[3]), mode, bits: Vec::new() };
+        if let (AlphaMode::Mask(cutoff), Some(raster)) = (mode, raster) {
+            let stops = |texel: &[u8]| u64::from(cover.of_texel(texel[3]) >= cutoff);
+            let word = |texels: &[u8]| texels.chunks(4).rev().fold(0, |bits, texel| bits << 1 | stops(texel));
+            cover.bits = raster.rgba.chunks(4 * u64::BITS as usize).map(word).collect();
+        }
+        cover
     }
 
-    /// Whether a triangle stops light at these weights of its second and third corner; what is blended does so by
-    /// `chance`.
-    pub fn stops(&self, triangle: [u32; 3], weights: [f32; 2], chance: u64) -> bool {
-        match self.mode {
-            AlphaMode::Opaque => true,
-            AlphaMode::Mask(cutoff) => self.alpha(triangle, weights) >= cutoff,
-            AlphaMode::Blend => self.alpha(triangle, weights) > unit(chance ^ u64::from(triangle[0]) << 32),
+    /// Whether a triangle with these coordinates in the texture stops light at these weights of its second and third
+    /// corner; what is blended does so by `chance`.
+    pub fn stops(&self, uvs: &[Vec2; 3], weights: [f32; 2], chance: u64) -> bool {
+        match (self.mode, self.raster) {
+            (AlphaMode::Opaque, _) => true,
+            (AlphaMode::Mask(cutoff), None) => self.factor >= cutoff,
+            (AlphaMode::Blend, None) => self.factor > unit(chance),
+            (AlphaMode::Mask(_), Some(raster)) => {
+                let texel = texel(raster, uvs, weights);
+                self.bits[texel / u64::BITS as usize] >> (texel % u64::BITS as usize) & 1 == 1
+            }
+            (AlphaMode::Blend, Some(raster)) => {
+                self.of_texel(raster.rgba[4 * texel(raster, uvs, weights) + 3]) > unit(chance)
+            }
         }
     }
 
-    fn alpha(&self, triangle: [u32; 3], [u, v]: [f32; 2]) -> f32 {
-        let Some(raster) = self.raster else { return self.factor };
-        let [a, b, c]: [Vec2; 3] = triangle.map(|vertex| self.part.uvs[vertex as usize]);
-        let uv = a + (b - a) * u + (c - a) * v;
-        let texel = |at: f32, size: u32| ((at - at.floor()) * size as f32) as u32 % size;
-        let (x, y) = (texel(uv.x, raster.width), texel(uv.y, raster.height));
-        let at = 4 * (y as usize * raster.width as usize + x as usize) + 3;
-        f32::from(raster.rgba[at]) / 255.0 * self.factor
+    fn of_texel(&self, alpha: u8) -> f32 {
+        f32::from(alpha) / 255.0 * self.factor
     }
+}
+
+/// Which texel of a repeated picture lies at these weights.
+fn texel(raster: &Raster, [a, b, c]: &[Vec2; 3], [u, v]: [f32; 2]) -> usize {
+    let uv = a + (b - a) * u + (c - a) * v;
+    let along = |at: f32, size: u32| ((at - at.floor()) * size as f32) as u32 % size;
+    along(uv.y, raster.height) as usize * raster.width as usize + along(uv.x, raster.width) as usize
 }
 
 /// A number from 0 to 1 without pattern (the finalizer of SplitMix64).

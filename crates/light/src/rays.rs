@@ -10,7 +10,7 @@ use foliar_numerics::r2_point;
 use foliar_plant::Plant;
 use foliar_schema::{Role, names};
 use foliar_space::{Beam, Rays};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -25,9 +25,14 @@ const TRIES: u64 = 8;
 struct Stop {
     /// Of the leaf; [`NO_GROUP`] for wood.
     group: u32,
-    part: u32,
-    triangle: u32,
+    /// Whose alpha it has; [`WHOLE`] for none.
+    cover: u32,
+    /// Corners in the texture.
+    uvs: [Vec2; 3],
 }
+
+/// A triangle that is not cut out.
+const WHOLE: u32 = u32::MAX;
 
 /// What a plant's leaves are, for rays.
 pub(crate) struct Scene<'a> {
@@ -59,14 +64,15 @@ impl<'a> Scene<'a> {
         };
         let mut leaf_of = Vec::new();
         for (index, part) in plant.parts().iter().enumerate().filter(|(i, _)| plant.role(*i) != Role::Other) {
-            for (number, triangle) in part.triangles.iter().enumerate() {
+            for triangle in &part.triangles {
                 let leaf = plant.leaf_of(index, triangle[0] as usize).map(|leaf| leaf as usize);
                 let row = leaf.map(|leaf| &plant.leaves()[leaf]);
                 if plant.role(index) == Role::Leaf && row.is_none_or(|row| row.crown_volume) {
                     continue;
                 }
                 let group = row.map_or(NO_GROUP, |row| row.group);
-                scene.stops.push(Stop { group, part: index as u32, triangle: number as u32 });
+                let uvs = triangle.map(|v| part.uvs.get(v as usize).copied().unwrap_or_default());
+                scene.stops.push(Stop { group, cover: index as u32, uvs });
                 let place = |v: u32| foliage.place(part.rest_position(v as usize)).as_vec3();
                 scene.corners.push(triangle.map(place));
                 leaf_of.push(leaf);
@@ -91,7 +97,7 @@ impl<'a> Scene<'a> {
             let [a, b, c, d] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
                 .map(|(u, v)| (source.center + half * (u * across + v * along)).as_vec3());
             for corners in [[a, b, c], [a, c, d]] {
-                self.stops.push(Stop { group: source.group, part: u32::MAX, triangle: 0 });
+                self.stops.push(Stop { group: source.group, cover: WHOLE, uvs: [Vec2::ZERO; 3] });
                 self.corners.push(corners);
                 leaf_of.push(Some(leaf));
             }
@@ -167,15 +173,16 @@ impl<'a> Scene<'a> {
             let stop = &self.stops[hit.triangle as usize];
             // A place of the bark leaves out wood, which has no group either: its own half of the sky is a matter of its
             // normal, and the sums count leaves alone.
-            stop.group != shot.at.skip && self.stops_at(stop, hit.u, hit.v, number)
+            stop.group != shot.at.skip && self.stops_at(hit.triangle, [hit.u, hit.v], number)
         });
         (direction, if blocked { 0.0 } else { 1.0 })
     }
 
     /// Whether the texture lets nothing through here.
-    fn stops_at(&self, stop: &Stop, u: f32, v: f32, chance: u64) -> bool {
-        let Some(part) = self.plant.parts().get(stop.part as usize) else { return true };
-        self.covers[stop.part as usize].stops(part.triangles[stop.triangle as usize], [u, v], chance)
+    fn stops_at(&self, triangle: u32, weights: [f32; 2], chance: u64) -> bool {
+        let stop = &self.stops[triangle as usize];
+        let Some(cover) = self.covers.get(stop.cover as usize) else { return true };
+        cover.stops(&stop.uvs, weights, chance ^ u64::from(triangle) << 32)
     }
 
     /// A point on a leaf where there is something of it.
@@ -196,7 +203,7 @@ impl<'a> Scene<'a> {
                     // The rest of the first number, and the second, within the triangle.
                     let (u, v) = (left / area, point.y as f32);
                     let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
-                    if self.stops_at(&self.stops[triangle as usize], u, v, number) {
+                    if self.stops_at(triangle, [u, v], number) {
                         let [a, b, c] = self.corners[triangle as usize];
                         return a + (b - a) * u + (c - a) * v;
                     }
