@@ -5,6 +5,7 @@ use crate::{CarrierError, raster_file};
 use foliar_bake::FloatRaster;
 use foliar_schema::MapLink;
 use half::f16;
+use half::slice::HalfFloatSliceExt;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
@@ -29,8 +30,17 @@ pub(crate) struct Stored {
 
 /// The numbers as an EXR of these bits gives them back: what follows from them follows from the file as well.
 pub(crate) fn rounded(raster: &FloatRaster, half: bool) -> FloatRaster {
-    let round = |v: &f32| if half { f16::from_f32(*v).to_f32() } else { *v };
-    FloatRaster { data: raster.data.par_iter().map(round).collect(), ..*raster }
+    let mut data = raster.data.clone();
+    if half {
+        const CHUNK: usize = 4096;
+        data.par_chunks_mut(CHUNK).for_each(|values| {
+            let mut halves = [f16::ZERO; CHUNK];
+            let halves = &mut halves[..values.len()];
+            halves.convert_from_f32_slice(values);
+            halves.convert_to_f32_slice(values);
+        });
+    }
+    FloatRaster { data, ..*raster }
 }
 
 /// One EXR: coefficients filled beyond the leaf, and the mean transmission, which says where the leaf is.
@@ -117,7 +127,7 @@ pub(crate) fn stored(raster: &FloatRaster, filled: &[Texel]) -> Stored {
     let ranges: Vec<(f64, f64)> = (0..3).into_par_iter().map(|c| best_range(filled, &leaf, c)).collect();
     let greatest = leaf.iter().map(|at| filled[*at][3]).fold(0.0f32, f32::max);
     let greatest = if greatest > 0.0 { f64::from(greatest) } else { 1.0 };
-    let word = |v: f64| (v * 255.0).round().clamp(0.0, 255.0) as u8;
+    let word = |v: f64| ((v * 255.0).clamp(0.0, 255.0) + 0.5) as u8;
     let part = |c: usize, v: f32| {
         let (low, high) = ranges[c];
         word((f64::from(v) - low) / (high - low))

@@ -9,6 +9,7 @@ use exr::prelude::{
 use foliar_bake::FloatRaster;
 use foliar_schema::raster;
 use half::f16;
+use half::slice::HalfFloatSliceExt;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Cursor;
@@ -60,10 +61,16 @@ fn png_bytes(floats: &FloatRaster, (min, max): (f64, f64)) -> Result<Vec<u8>, im
 pub(crate) fn exr_bytes(raster: &FloatRaster, half: bool) -> exr::error::Result<Vec<u8>> {
     let names: &[&str] = if raster.channels == 1 { &["Y"] } else { &["R", "G", "B", "A"] };
     let count = raster.channels as usize;
-    let of_channel = |channel: usize| raster.data.iter().skip(channel).step_by(count).copied();
-    let samples = |channel: usize| match half {
-        true => FlatSamples::F16(of_channel(channel).map(f16::from_f32).collect()),
-        false => FlatSamples::F32(of_channel(channel).collect()),
+    let of_channel = |channel: usize| raster.data.chunks_exact(count).map(move |texel| texel[channel]).collect();
+    let samples = |channel: usize| {
+        let values: Vec<f32> = of_channel(channel);
+        if !half {
+            return FlatSamples::F32(values);
+        }
+        // By the slice: only so half asks the processor to do it.
+        let mut halves = vec![f16::ZERO; values.len()];
+        halves.convert_from_f32_slice(&values);
+        FlatSamples::F16(halves)
     };
     let channels = (0..count).map(|i| AnyChannel::new(names[i], samples(i))).collect();
     let encoding =
@@ -71,7 +78,12 @@ pub(crate) fn exr_bytes(raster: &FloatRaster, half: bool) -> exr::error::Result<
     let size = (raster.width as usize, raster.height as usize);
     let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
-    Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes)?;
+    let image = Image::from_layer(layer);
+    // exr keeps lines in order whatever thread packs them, and asks its own threads, not ours.
+    match rayon::current_num_threads() {
+        1 => image.write().non_parallel().to_buffered(&mut bytes)?,
+        _ => image.write().to_buffered(&mut bytes)?,
+    }
     Ok(bytes.into_inner())
 }
 

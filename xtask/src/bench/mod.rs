@@ -104,6 +104,8 @@ const MEASURES: &[Measure] = &[
     ("noise-mean", wind::noise_mean),
     ("translucency-seconds", translucency::seconds),
     ("translucency-rgb-seconds", translucency::rgb_seconds),
+    ("translucency-program-seconds", programs::leaf_side),
+    ("translucency-program-rgb-seconds", programs::leaf_rgb),
     ("translucency-large-seconds", translucency::large_seconds),
     ("translucency-large-memory", translucency::large_memory),
     ("translucency-tables-seconds", translucency::tables),

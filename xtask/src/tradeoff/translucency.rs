@@ -152,7 +152,7 @@ fn costs() -> Result<Vec<Cost>> {
         let exact: Vec<_> = pieces.iter().map(|piece| reference::coefficient_map(piece, &base)).collect();
         for filters in FILTERS {
             let spreading = if filters == 0 { Spreading::None } else { Spreading::Kernel };
-            let recipe = Recipe { filters, spreading, ..base.clone() };
+            let recipe = Recipe { filters: Some(filters), spreading, ..base.clone() };
             let tables = tables_of(&leaf.back, &recipe)?;
             let (_, seconds) = cpu_seconds(|| Ok(coefficient_map(&leaf.back, &tables_of(&leaf.back, &recipe)?)))?;
             let errors = pieces.iter().zip(&exact).map(|(piece, exact)| rms(&coefficient_map(piece, &tables), exact));

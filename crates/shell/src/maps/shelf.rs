@@ -8,6 +8,7 @@ use crate::options::is_dash;
 use foliar_bake::{FloatRaster, MapRaster};
 use foliar_plant::{AlphaMode, Plant};
 use foliar_schema::{Finding, Import, names};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -71,17 +72,26 @@ impl Shelf<'_> {
             files: files.iter().cloned().collect(),
             ..Sheet::default()
         };
-        let mut alpha = None;
         for (map, file) in files {
-            let name = file.display().to_string();
             let found = self.read(file)?;
             let entry = wanted.entries.get(map.as_str());
             sheet.reads.insert(format!("map/{}", entry.map_or(map.as_str(), |e| &e.name)), found.hash.clone());
-            if map == names::MAP_BACKLIT {
-                sheet.pictures.insert(names::PICTURE_COLOR.into(), photograph(&found.bytes, &name)?);
-                continue;
-            }
-            let read = foliar_carrier::images::read_map(&found.bytes, &name)?;
+        }
+        let bytes = |file: &PathBuf| (self.read[file].bytes.as_slice(), file.display().to_string());
+        let (photographs, files): (Vec<_>, Vec<_>) = files.iter().partition(|(map, _)| map == names::MAP_BACKLIT);
+        for (_, file) in photographs {
+            let (bytes, name) = bytes(file);
+            sheet.pictures.insert(names::PICTURE_COLOR.into(), photograph(bytes, &name)?);
+        }
+        let decode = |(_, file): &&(String, PathBuf)| {
+            let (bytes, name) = bytes(file);
+            foliar_carrier::images::read_map(bytes, &name)
+        };
+        // All of them, so that the first of several bad maps is named, whichever thread met its own first.
+        let decoded: Vec<_> = files.par_iter().map(decode).collect();
+        let mut alpha = None;
+        for ((map, _), read) in files.into_iter().zip(decoded) {
+            let read = read?;
             findings.extend(read.findings);
             if map == names::MAP_THICKNESS {
                 alpha = read.alpha;

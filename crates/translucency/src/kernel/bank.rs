@@ -52,6 +52,13 @@ impl Bank {
         Bank { filters: vec![filter(0.0, [1.0; 2])], weights: vec![vec![1.0]; thicknesses], miss: 0.0 }
     }
 
+    /// Filters that keep the bank within .3 % rms of the direct gather: one for each doubling of the width that spread can
+    /// have in texels, since spread falls off as slowly as the leaf is thick.
+    pub fn enough(greatest_mm: f64, texel_mm: [f64; 2]) -> usize {
+        let texels = greatest_mm / texel_mm[0].min(texel_mm[1]);
+        (libm::log2(texels.max(1.0)) + 3.5).clamp(4.0, 10.0) as usize
+    }
+
     /// The best of a few sets of `count` Gaussians (the identity is one) for spreads whose greatest thickness is given,
     /// on texels of this size, mm.
     pub fn fit(spreads: &[Spread], greatest_mm: f64, texel_mm: [f64; 2], count: usize) -> Bank {

@@ -54,8 +54,8 @@ pub struct Recipe {
     pub curve: bool,
     /// Whether light spreads.
     pub spreading: Spreading,
-    /// Filters of the bank, the identity among them.
-    pub filters: usize,
+    /// Filters of the bank, the identity among them; without it as many as its accuracy takes.
+    pub filters: Option<usize>,
     /// Size of a texel, mm: across and down.
     pub texel_mm: [f64; 2],
 }
@@ -73,7 +73,7 @@ impl Recipe {
             fit: Fit::default(),
             curve: false,
             spreading: Spreading::default(),
-            filters: 6,
+            filters: None,
             texel_mm,
         }
     }

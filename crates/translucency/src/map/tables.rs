@@ -121,7 +121,8 @@ fn bank(recipe: &Recipe, solved: &[f64], greatest: f64) -> Bank {
     }
     let boundary = Boundary::new(recipe.index());
     let spreads: Vec<Spread> = solved.par_iter().filter_map(|d| recipe.spread(*d, &boundary)).collect();
-    Bank::fit(&spreads, greatest, recipe.texel_mm, recipe.filters)
+    let count = recipe.filters.unwrap_or_else(|| Bank::enough(greatest, recipe.texel_mm));
+    Bank::fit(&spreads, greatest, recipe.texel_mm, count)
 }
 
 /// Thickness of an entry.

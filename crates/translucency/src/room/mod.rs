@@ -31,7 +31,7 @@ impl Baker for Translucency {
     }
 
     fn version(&self) -> u32 {
-        1
+        2
     }
 
     fn about(&self) -> &'static str {

@@ -251,9 +251,10 @@ pub struct Params {
     pub curve: AngularCurve,
     /// Whether light spreads inside the leaf.
     pub spread: Spreading,
-    /// Filters of the bank that stands for the spread, the identity among them: 4 is off by .3 % rms, 6 by .1 %.
+    /// Filters of the bank that stands for the spread, the identity among them; without it as many as keep the bank within
+    /// .3 % rms of the direct gather: 6 on a map of 1024 texels, 8 on one of 4096.
     #[schemars(range(min = 2, max = 12))]
-    pub filters: u32,
+    pub filters: Option<u32>,
     /// What the map is divided by.
     pub normalize: Normalize,
     /// Sides that maps are made for.
@@ -303,7 +304,7 @@ impl Default for Params {
             fit: Fit::default(),
             curve: AngularCurve::default(),
             spread: Spreading::default(),
-            filters: 6,
+            filters: None,
             normalize: Normalize::default(),
             sides: Sides::default(),
             normal_frame: NormalFrame::default(),

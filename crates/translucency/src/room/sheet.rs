@@ -46,7 +46,7 @@ pub fn recipes(params: &Params, sheet: &Sheet) -> Result<Vec<Band>, BakeError> {
             fit: params.fit,
             curve: params.curve == super::AngularCurve::Fitted,
             spreading: params.spread,
-            filters: params.filters as usize,
+            filters: params.filters.map(|count| count as usize),
             texel_mm: [sheet.texel_mm; 2],
         };
         Ok(Band { suffix, wavelength_nm, recipe })

@@ -26,7 +26,7 @@ fn golden_maps_are_met() {
     }
 }
 
-/// The gate of the issue: .3 % rms of the mean, for any number of filters from the default on.
+/// The gate of the issue: .3 % rms of the mean, for the chosen number of filters, and for more.
 #[test]
 fn the_bank_meets_the_direct_gather() {
     const PROMISED: f64 = 3e-3;
@@ -34,12 +34,12 @@ fn the_bank_meets_the_direct_gather() {
     for case in file["cases"].as_array().unwrap().iter().take(2) {
         let Golden { map, recipe, .. } = Golden::of(case);
         let direct = reference::coefficient_map(&map, &recipe);
-        for filters in [recipe.filters, recipe.filters + 3] {
+        for filters in [None, Some(6), Some(9)] {
             let bank = fast(&map, &Recipe { filters, ..recipe.clone() });
             let mean = direct.iter().map(|c| c.length()).sum::<f64>() / direct.len() as f64;
             let squares = direct.iter().zip(&bank).map(|(a, b)| (*a - *b).length_squared()).sum::<f64>();
             let rms = (squares / direct.len() as f64).sqrt() / mean;
-            assert!(rms <= PROMISED, "{} with {filters} filters: {rms}", case["name"]);
+            assert!(rms <= PROMISED, "{} with {filters:?} filters: {rms}", case["name"]);
         }
     }
 }
