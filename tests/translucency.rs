@@ -279,3 +279,24 @@ fn a_tree_without_maps_is_baked_without_them() {
     assert!(line.contains("no") && line.contains("thickness"), "{line}");
     run(FOLIAR, &["bake", text(&source), "--only", "translucency", "-o", "never.glb"]).expect(2, &["thickness"]);
 }
+
+/// A leaf texture is enough: thickness and the color of what comes through are estimated from it, and said to be that.
+#[test]
+fn thickness_and_color_are_estimated_from_the_leaf_texture() {
+    let source = crate::outsiders::repository().join("fixtures/linden/linden.obj");
+    let baked = fresh("lucy-own.glb");
+    let flags = [text(&source), "--thickness-from", "photo", "--leaf-width-mm", "400", "-o", text(&baked)];
+    let run = run(TRANSLUCENCY, &flags).expect(0, &["MAP-ESTIMATED"]);
+    assert!(!format!("{run:?}").contains("MAP-COLOR"), "a photograph is meant to have colors: {run:?}");
+    verify_file(&baked).unwrap();
+    let sheets = &foliage(&baked)["translucency"];
+    let color = &sheets.as_object().unwrap().values().next().unwrap()["color"];
+    assert_eq!(color["estimate"], true, "{sheets}");
+    let factor: Vec<f64> = color["factor"].as_array().unwrap().iter().map(|part| part.as_f64().unwrap()).collect();
+    assert!(factor[1] == 1.0 && factor[0] < 1.0 && factor[2] < factor[0], "light through a linden is green: {factor:?}");
+    let (json, _) = open_glb(&baked);
+    let shown = json["materials"].as_array().unwrap().iter().filter_map(|material| {
+        material["extensions"]["KHR_materials_diffuse_transmission"]["diffuseTransmissionColorFactor"].as_array()
+    });
+    assert!(shown.count() > 0);
+}

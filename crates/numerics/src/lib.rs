@@ -4,10 +4,12 @@ mod directions;
 mod error_stats;
 mod morton;
 mod quadrature;
+mod srgb;
 mod sum;
 
 pub use directions::{fibonacci_sphere, r2_point, radical_inverse};
 pub use error_stats::{ErrorStats, spearman};
 pub use morton::{MORTON_BITS, morton3, morton3_inverse};
 pub use quadrature::{gauss_legendre, legendre};
+pub use srgb::{linear_of_srgb, srgb_of_linear};
 pub use sum::CompensatedSum;

@@ -3,6 +3,7 @@
 //! finds it by that.
 
 mod materials;
+mod own;
 mod shelf;
 
 use crate::Failure;
@@ -15,15 +16,24 @@ use crate::report::Report;
 use foliar_bake::{Baker, Layer, Maps};
 use foliar_plant::Plant;
 use foliar_schema::Finding;
-use materials::{alone, by_material};
+use materials::{alone, by_material, photographed};
+use own::Own;
 use serde_json::{Map, Value};
-use shelf::{Shelf, own_alpha};
+use shelf::Shelf;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Parameters that say which material a map or another parameter belongs to.
 const MATERIAL: &str = "material";
 const FOR_MATERIAL: &str = "for_material";
+/// Parameter that says what thickness is read from, and its word for a photograph.
+const THICKNESS_FROM: &str = "thickness_from";
+const PHOTO: &str = "photo";
+
+/// Whether the map of thickness is a photograph by what was given.
+fn from_photo(given: &Map<String, Value>) -> bool {
+    given.get(THICKNESS_FROM).is_some_and(|from| from == PHOTO)
+}
 
 /// One map as it was given.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,7 +207,11 @@ type Source = (Vec<(String, PathBuf)>, Map<String, Value>);
 pub fn gather(gathering: &Gathering, baker: &dyn Baker, entries: &[Entry]) -> Result<Gathered, Failure> {
     let mut gathered = Gathered::default();
     let wanted = match gathering.plant {
-        Some(plant) => by_material(gathering, baker, entries, plant, &mut gathered.findings)?,
+        Some(plant) => {
+            let mut wanted = by_material(gathering, baker, entries, plant, &mut gathered.findings)?;
+            wanted.extend(photographed(gathering, baker, plant, &wanted)?);
+            wanted
+        }
         None => vec![alone(gathering, baker, entries)?],
     };
     let mut shelf = Shelf { gathering, read: BTreeMap::new() };
@@ -208,12 +222,13 @@ pub fn gather(gathering: &Gathering, baker: &dyn Baker, entries: &[Entry]) -> Re
             files.push(((*map).to_owned(), shelf.find(entry)?));
         }
         let key = (files, material.given.clone());
-        // Alpha of the material's own color makes it a set of its own.
-        let own_alpha = own_alpha(gathering.plant, &material.name);
-        match known.iter().position(|other| *other == key).filter(|_| own_alpha.is_none()) {
+        let own = Own::of(gathering.plant, &material.name, from_photo(&material.given));
+        // An outline or a picture of its own makes a material a set of its own.
+        let is_shared = own.as_ref().is_none_or(|own| own.alpha.is_none() && own.color.is_none());
+        match known.iter().position(|other| *other == key).filter(|_| is_shared) {
             Some(at) => gathered.sheets[at].materials.push(material.name),
             None => {
-                gathered.sheets.push(shelf.sheet(&material, &key.0, own_alpha, &mut gathered.findings)?);
+                gathered.sheets.push(shelf.sheet(&material, &key.0, own, &mut gathered.findings)?);
                 known.push(key);
             }
         }
@@ -247,8 +262,9 @@ pub fn settle(
         let wants = row.baker.needs().maps;
         let lacks = |sheet: &Sheet| wants.iter().find(|map| !sheet.maps.contains_key(**map));
         if let Some((sheet, map)) = sheets.iter().find_map(|sheet| Some((sheet, lacks(sheet)?))) {
+            let what = if from_photo(&sheet.given) { "no picture of its own" } else { "maps" };
             let text = format!(
-                "{room}: material {} has maps and no map of {map}: give it with --{map} {}=FILE",
+                "{room}: material {} has {what} and no map of {map}: give it with --{map} {}=FILE",
                 sheet.name, sheet.name
             );
             return Err(Failure::usage(text));

@@ -3,15 +3,7 @@
 use foliar_schema::Role;
 use glam::{Mat3, Vec3};
 
-/// Linear light of an sRGB value in [0, 1] (IEC 61966-2-1).
-pub(crate) fn to_linear(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { libm::powf((encoded + 0.055) / 1.055, 2.4) }
-}
-
-/// sRGB value of linear light in [0, 1].
-pub(crate) fn to_encoded(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 }
-}
+pub(crate) use foliar_numerics::{linear_of_srgb as to_linear, srgb_of_linear as to_encoded};
 
 /// Eight bits per channel of linear light; alpha is linear as it is.
 pub(crate) fn to_bytes(linear: Vec3, alpha: f32) -> [u8; 4] {

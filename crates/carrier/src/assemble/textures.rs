@@ -161,7 +161,7 @@ fn color(
         return Ok(Some(ColorLink { estimate: false, factor: [1.0; 3], texture: Some(texture) }));
     }
     let factor: Option<Vec<f64>> =
-        facts["colorEstimate"].as_array().map(|a| a.iter().filter_map(Value::as_f64).collect());
+        facts[names::FACT_COLOR_ESTIMATE].as_array().map(|a| a.iter().filter_map(Value::as_f64).collect());
     let factor = factor.and_then(|factor| <[f64; 3]>::try_from(factor).ok());
     Ok(factor.map(|factor| ColorLink { estimate: true, factor, texture: None }))
 }

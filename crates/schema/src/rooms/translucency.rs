@@ -21,6 +21,12 @@ pub const BAND_BLUE: &str = "Blue";
 /// Photograph of a leaf against the light, passed on as it came.
 pub const MAP_BACKLIT: &str = "backlit";
 
+/// Mean base color of a leaf material, linear, in one texel: what the color of light that comes through is estimated from.
+pub const MAP_ALBEDO: &str = "albedo";
+
+/// Fact of a set of maps: linear color of the light that comes through over its greatest part, estimated.
+pub const FACT_COLOR_ESTIMATE: &str = "colorEstimate";
+
 /// Color of the light that comes through, the picture of a layer that is passed on as it came.
 pub const PICTURE_COLOR: &str = "color";
 

@@ -1,6 +1,6 @@
 //! Which maps are for which leaf material, by name or pattern, and what was given for each.
 
-use super::{Entry, FOR_MATERIAL, Gathering, MATERIAL, Wanted};
+use super::{Entry, FOR_MATERIAL, Gathering, MATERIAL, Wanted, from_photo};
 use crate::Failure;
 use crate::config::{Given, Origin, from_text};
 use foliar_bake::Baker;
@@ -88,6 +88,25 @@ pub(super) fn by_material<'a>(
         Ok(Wanted { name: name.clone(), entries, given: own_given(gathering, baker, Some(name))? })
     });
     wanted.collect()
+}
+
+/// Leaf materials without a map of thickness that have it estimated from their own color: all that are not named otherwise.
+pub(super) fn photographed<'a>(
+    gathering: &Gathering,
+    baker: &dyn Baker,
+    plant: &Plant,
+    wanted: &[Wanted],
+) -> Result<Vec<Wanted<'a>>, Failure> {
+    let patterns = unnamed_patterns(gathering, baker)?;
+    let meant = |name: &String| patterns.is_empty() || patterns.iter().any(|pattern| pattern.matches(name));
+    let mut more = Vec::new();
+    for name in leaf_materials(plant).into_iter().filter(|name| wanted.iter().all(|w| w.name != *name) && meant(name)) {
+        let given = own_given(gathering, baker, Some(&name))?;
+        if from_photo(&given) {
+            more.push(Wanted { name, entries: BTreeMap::new(), given });
+        }
+    }
+    Ok(more)
 }
 
 /// The materials that a map is for; without a pattern the only one.

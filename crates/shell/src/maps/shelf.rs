@@ -1,19 +1,15 @@
 //! Files of maps, each read once, and the sets that they make.
 
-use super::materials::material_name;
-use super::{Entry, Gathering, Sheet, Wanted};
+use super::own::Own;
+use super::{Entry, Gathering, Sheet, Wanted, from_photo};
 use crate::Failure;
 use crate::config::Origin;
 use crate::options::is_dash;
 use foliar_bake::{FloatRaster, MapRaster};
-use foliar_plant::{AlphaMode, Plant};
 use foliar_schema::{Finding, Import, names};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// Alpha of a blended material from which it counts as leaf.
-const BLEND_CUTOFF: f32 = 0.5;
 
 /// A file that was read.
 pub(super) struct Found {
@@ -62,7 +58,7 @@ impl Shelf<'_> {
         &mut self,
         wanted: &Wanted,
         files: &[(String, PathBuf)],
-        own_alpha: Option<MapRaster>,
+        own: Option<Own>,
         findings: &mut Vec<Finding>,
     ) -> Result<Sheet, Failure> {
         let mut sheet = Sheet {
@@ -92,18 +88,25 @@ impl Shelf<'_> {
         let mut alpha = None;
         for ((map, _), read) in files.into_iter().zip(decoded) {
             let read = read?;
-            findings.extend(read.findings);
+            let is_photo = map == names::MAP_THICKNESS && from_photo(&wanted.given);
+            // Colors are what a photograph is for.
+            findings.extend(read.findings.into_iter().filter(|_| !is_photo));
             if map == names::MAP_THICKNESS {
                 alpha = read.alpha;
             }
             sheet.maps.insert(map.clone(), read.map);
         }
-        if !sheet.maps.contains_key(names::MAP_ALPHA)
-            && let Some(thickness) = sheet.maps.get(names::MAP_THICKNESS)
-        {
+        if let Some(own) = own {
+            sheet.maps.insert(names::MAP_ALBEDO.into(), own.albedo);
+            if from_photo(&wanted.given) && !sheet.maps.contains_key(names::MAP_THICKNESS) {
+                sheet.maps.extend(own.color.map(|color| (names::MAP_THICKNESS.to_owned(), color)));
+            }
+            alpha = alpha.or(own.alpha);
+        }
+        if let Some(thickness) = sheet.maps.get(names::MAP_THICKNESS).filter(|_| !sheet.maps.contains_key(names::MAP_ALPHA)) {
             let (width, height) = (thickness.raster.width, thickness.raster.height);
-            let alpha = alpha.or_else(|| own_alpha.map(|own| resampled(&own, width, height)));
-            sheet.maps.extend(alpha.map(|alpha| (names::MAP_ALPHA.to_owned(), alpha)));
+            let alpha = alpha.map(|alpha| (names::MAP_ALPHA.to_owned(), resampled(alpha, width, height)));
+            sheet.maps.extend(alpha);
         }
         Ok(sheet)
     }
@@ -120,27 +123,12 @@ fn photograph(bytes: &[u8], name: &str) -> Result<Vec<u8>, Failure> {
     Ok(bytes.to_vec())
 }
 
-/// Where the color of a material says that there is leaf: 1 or 0.
-pub(super) fn own_alpha(plant: Option<&Plant>, name: &str) -> Option<MapRaster> {
-    let base = plant?.base();
-    let index =
-        (0..base.materials.len() as u32).find(|index| plant.is_some_and(|p| material_name(p, *index) == name))?;
-    let material = base.materials.get(index as usize)?;
-    let cutoff = match material.alpha_mode {
-        AlphaMode::Opaque => return None,
-        AlphaMode::Mask(cutoff) => cutoff,
-        AlphaMode::Blend => BLEND_CUTOFF,
-    };
-    let raster = base.rasters.get(material.base_color_raster? as usize).filter(|raster| raster.has_alpha)?;
-    let factor = material.base_color[3];
-    let alpha = |pixel: &[u8]| if f32::from(pixel[3]) / 255.0 * factor >= cutoff { 1.0 } else { 0.0 };
-    let data = raster.rgba.chunks_exact(4).map(alpha).collect();
-    Some(MapRaster { raster: FloatRaster { width: raster.width, height: raster.height, channels: 1, data }, bits: 8 })
-}
-
 /// A mask at another size: the texel in the middle of each.
-fn resampled(mask: &MapRaster, width: u32, height: u32) -> MapRaster {
+fn resampled(mask: MapRaster, width: u32, height: u32) -> MapRaster {
     let own = &mask.raster;
+    if (own.width, own.height) == (width, height) {
+        return mask;
+    }
     let at = |to: u32, size: u32, from: u32| (u64::from(2 * to + 1) * u64::from(from) / u64::from(2 * size)) as usize;
     let texel = |y: u32, x: u32| own.data[at(y, height, own.height) * own.width as usize + at(x, width, own.width)];
     let data = (0..height).flat_map(|y| (0..width).map(move |x| texel(y, x))).collect();

@@ -1,7 +1,8 @@
 //! The color of light that came through, from the color that a leaf shows by day.
 //!
-//! At each wavelength the leaf keeps its preset's scattering; its absorption is what makes it as bright as the picture says.
-//! The same leaf then lets through what it lets through.
+//! Absorption is what makes the leaf as bright as the picture says, in each band; scattering is what its preset has where it
+//! absorbs as much. Across the spectrum of one leaf the two go together: where tissue swallows most of the light, less of it
+//! looks scattered. The same leaf then lets through what it lets through.
 
 use crate::presets::Preset;
 use crate::transport::{AddingDoubling, Medium, fresnel_outside};
@@ -9,6 +10,8 @@ use rayon::prelude::*;
 
 /// Red, green and blue stand for light of these wavelengths, nm, as the bands of the room do.
 const WAVELENGTHS_NM: [f64; 3] = [610.0, 550.0, 450.0];
+/// Wavelengths of a leaf's spectrum, nm: from where it absorbs least to where it absorbs most.
+const SPECTRUM_NM: [f64; 5] = [450.0, 510.0, 550.0, 610.0, 680.0];
 /// Absorptions that are solved, and their range, 1/mm: from glass to soot.
 const SOLVED: usize = 48;
 const RANGE: (f64, f64) = (1e-4, 300.0);
@@ -24,9 +27,11 @@ pub struct ColorEstimate {
 impl ColorEstimate {
     /// Solves a leaf of this kind and thickness, mm. `None` for a preset that ends within the visible.
     pub fn new(preset: &Preset, thickness_mm: f64) -> Option<ColorEstimate> {
+        let mut spectrum = SPECTRUM_NM.map(|nm| preset.medium(nm)).into_iter().collect::<Option<Vec<Medium>>>()?;
+        spectrum.sort_by(|a, b| a.absorption.total_cmp(&b.absorption));
         let mut bands = [const { Vec::new() }; 3];
         for (band, wavelength) in bands.iter_mut().zip(WAVELENGTHS_NM) {
-            *band = solved(&preset.medium(wavelength)?, thickness_mm);
+            *band = solved(&preset.medium(wavelength)?, &spectrum, thickness_mm);
         }
         Some(ColorEstimate { bands })
     }
@@ -38,23 +43,31 @@ impl ColorEstimate {
     }
 }
 
-fn solved(medium: &Medium, thickness_mm: f64) -> Vec<(f64, f64)> {
+fn solved(medium: &Medium, spectrum: &[Medium], thickness_mm: f64) -> Vec<(f64, f64)> {
     let (low, high) = (libm::log(RANGE.0), libm::log(RANGE.1));
     let row = |i: usize| {
         // From soot to glass: albedo rises.
         let absorption = libm::exp(high + (low - high) * i as f64 / (SOLVED - 1) as f64);
-        let totals = AddingDoubling::one(&Medium { absorption, ..*medium }, thickness_mm, 1.0, NODES);
+        let scattering = scattering(spectrum, absorption);
+        let totals = AddingDoubling::one(&Medium { absorption, scattering, ..*medium }, thickness_mm, 1.0, NODES);
         // The mirror of the surface is no part of a base color.
         ((totals.reflectance - fresnel_outside(1.0, medium.index)).max(0.0), totals.transmittance)
     };
     (0..SOLVED).into_par_iter().map(row).collect()
 }
 
-fn between(rows: &[(f64, f64)], albedo: f64) -> f64 {
-    let at = rows.partition_point(|row| row.0 <= albedo);
+/// Scattering where a leaf absorbs as much, by straight lines over the logarithm of absorption.
+fn scattering(spectrum: &[Medium], absorption: f64) -> f64 {
+    let row = |medium: &Medium| (libm::log(medium.absorption.max(RANGE.0)), medium.scattering);
+    between(&spectrum.iter().map(row).collect::<Vec<_>>(), libm::log(absorption))
+}
+
+/// What stands at a place in rows of (place, value) by rising place.
+fn between(rows: &[(f64, f64)], place: f64) -> f64 {
+    let at = rows.partition_point(|row| row.0 <= place);
     match (at.checked_sub(1).and_then(|i| rows.get(i)), rows.get(at)) {
         (Some(low), Some(high)) => {
-            let share = (albedo - low.0) / (high.0 - low.0).max(f64::MIN_POSITIVE);
+            let share = (place - low.0) / (high.0 - low.0).max(f64::MIN_POSITIVE);
             low.1 + share * (high.1 - low.1)
         }
         (Some(one), None) | (None, Some(one)) => one.1,

@@ -3,9 +3,10 @@
 use super::params::{NormalFrame, NormalY, Params, Side, ThicknessFrom, refuse};
 use super::{ROOM, finding};
 use crate::map::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
-use crate::photo::{Look, thickness_from_photo};
+use crate::photo::{ColorEstimate, Look, thickness_from_photo};
 use crate::presets::Preset;
 use foliar_bake::{BakeError, MapRaster, Maps};
+use foliar_numerics::linear_of_srgb;
 use foliar_schema::{Finding, code, names};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -32,6 +33,8 @@ pub struct Sheet {
     pub range_mm: (f64, f64),
     /// Median thickness.
     pub median_mm: f64,
+    /// Mean color that the leaf shows by day, linear, where anything says so.
+    albedo: Option<[f32; 3]>,
     /// What a person should know.
     pub findings: Vec<Finding>,
 }
@@ -54,9 +57,11 @@ impl Sheet {
             return Err(bad(name, format!("has {width} x {height} texels"), "give a map of one texel or more"));
         }
         for (other, map) in maps {
-            check(other, map, (width, height))?;
+            let size = if other == names::MAP_ALBEDO { (1, 1) } else { (width, height) };
+            check(other, map, size)?;
         }
-        let mut sheet = Sheet { width, height, texel_mm: params.texel_mm(width), ..Sheet::default() };
+        let albedo = maps.get(names::MAP_ALBEDO).and_then(|map| map.raster.data.first_chunk().copied());
+        let mut sheet = Sheet { width, height, albedo, texel_mm: params.texel_mm(width), ..Sheet::default() };
         sheet.read_thickness(maps, thickness, params)?;
         let heights = params.height_scale_mm;
         let lit = |side: usize| params.sides.list().iter().any(|(shown, _)| shown.lit() == side);
@@ -139,13 +144,14 @@ impl Sheet {
         }
         let alpha = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect::<Vec<f32>>());
         // Whole numbers of a photograph are bent as sRGB is; floats are linear.
-        let linear = |v: f32| if map.bits == 32 { v } else { linear(v) };
+        let linear = |v: f32| if map.bits == 32 { v } else { linear_of_srgb(v) };
         let texel = |(at, texel): (usize, &[f32])| {
             let own = if channels > 3 { texel[3] } else { 1.0 };
             let alpha = alpha.as_ref().map_or(own, |alpha| alpha[at]);
             [linear(texel[0]), linear(texel[1]), linear(texel[2]), alpha]
         };
         let rgba: Vec<[f32; 4]> = map.raster.data.par_chunks_exact(channels).enumerate().map(texel).collect();
+        self.albedo = mean_color(&rgba);
         let usual = Preset::named(params.preset.name()).map_or(0.2, |preset| preset.thickness_mm);
         let look = Look { mean_mm: params.thickness_mean_mm.unwrap_or(usual), veins: params.veins };
         self.thickness_mm = thickness_from_photo(rgba.as_flattened(), self.width, &look);
@@ -237,18 +243,33 @@ impl Sheet {
             "decode": "t = max(0, R b1.l + G b2.l + B b3.l) (a0 + a1 l.z), 0 where l.z <= 0; A is the mean over directions",
             "maps": maps,
         });
-        facts.as_object().cloned().unwrap_or_default()
+        let mut facts = facts.as_object().cloned().unwrap_or_default();
+        if let Some(color) = self.color_estimate(params) {
+            facts.insert(names::FACT_COLOR_ESTIMATE.into(), json!(color));
+        }
+        facts
     }
+
+    /// Color of light that comes through over its greatest part, by what the leaf shows by day and the tissue of its kind.
+    fn color_estimate(&self, params: &Params) -> Option<[f64; 3]> {
+        let estimate = ColorEstimate::new(Preset::named(params.preset.name())?, self.median_mm)?;
+        let through = estimate.of(self.albedo?).map(f64::from);
+        let greatest = through.into_iter().fold(0.0, f64::max);
+        (greatest > 0.0).then(|| through.map(|part| part / greatest))
+    }
+}
+
+/// Mean color of the texels that belong to the leaf.
+fn mean_color(rgba: &[[f32; 4]]) -> Option<[f32; 3]> {
+    let leaf = || rgba.iter().filter(|texel| texel[3] >= COVERED);
+    let count = leaf().count() as f64;
+    let mean = |c: usize| (leaf().map(|texel| f64::from(texel[c])).sum::<f64>() / count) as f32;
+    (count > 0.0).then(|| [mean(0), mean(1), mean(2)])
 }
 
 /// First channel of a map.
 fn channel(map: &MapRaster) -> impl Iterator<Item = f32> + '_ {
     map.raster.data.iter().step_by(map.raster.channels.max(1) as usize).copied()
-}
-
-/// Linear light of an sRGB value (IEC 61966-2-1).
-fn linear(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { libm::powf((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// Millimeters of 1 in a map.
@@ -271,7 +292,7 @@ fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result
             format!("is {} x {} and {} is {width} x {height}", raster.width, raster.height, names::MAP_THICKNESS);
         return Err(bad(name, problem, "give maps of one size"));
     }
-    let colors = matches!(name, names::MAP_NORMAL_FRONT | names::MAP_NORMAL_BACK);
+    let colors = matches!(name, names::MAP_NORMAL_FRONT | names::MAP_NORMAL_BACK | names::MAP_ALBEDO);
     if !raster.is_whole() || raster.channels == 0 || (colors && raster.channels < 3) {
         let problem = format!("has {} channels and {} numbers", raster.channels, raster.data.len());
         return Err(bad(name, problem, "a normal map has three channels, any other at least one"));
