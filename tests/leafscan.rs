@@ -86,3 +86,29 @@ fn what_is_no_leaf_is_refused_with_a_remedy() {
     run_in(here, LEAFSCAN, &[&SCAN[..5], &["-o", "maps.exr", "--resolution", "4"]].concat()).expect(2, &["resolution"]);
     assert!(!here.join("maps.exr").exists());
 }
+
+/// Two height maps are a leaf too: what a mesh's maps said is what comes of their heights.
+#[test]
+fn two_height_maps_become_the_maps_of_a_leaf() {
+    let here = folder();
+    let here = here.path();
+    leaf(here, &[]);
+    run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "mesh.exr"]].concat()).expect(0, &[]);
+    let heights = ["--height-front", "mesh-height-front.exr", "--height-back", "mesh-height-back.exr"];
+    let sized = [&heights[..], &["--texel-mm", "1", "-o", "maps.exr"]].concat();
+    run_in(here, LEAFSCAN, &sized).expect(0, &["a texel is 1.000000", "thickness 0.500000 to 0.500000"]);
+    for name in ["", "-height-back", "-normal-front"] {
+        let [own, mesh] = ["maps", "mesh"].map(|stem| image::open(here.join(format!("{stem}{name}.exr"))).unwrap());
+        let (own, mesh) = (own.to_rgb32f(), mesh.to_rgb32f());
+        assert!(own.iter().zip(mesh.iter()).all(|(a, b)| (a - b).abs() < 1e-5), "{name}");
+    }
+    // One of them is no leaf, neither is one without a size, and a mesh beside them is one too many.
+    run_in(here, LEAFSCAN, &[&heights[..2], &["-o", "one.exr"]].concat()).expect(2, &["--height-back FILE"]);
+    run_in(here, LEAFSCAN, &[&heights[..], &["-o", "one.exr"]].concat()).expect(2, &["texel_mm", "must be given"]);
+    run_in(here, LEAFSCAN, &[&SCAN[..], &heights, &["-o", "one.exr"]].concat()).expect(2, &["and not both"]);
+    std::fs::write(here.join("cut.exr"), &std::fs::read(here.join("mesh-height-back.exr")).unwrap()[..300]).unwrap();
+    let cut =
+        ["--height-front", "mesh-height-front.exr", "--height-back", "cut.exr", "--texel-mm", "1", "-o", "one.exr"];
+    run_in(here, LEAFSCAN, &cut).expect(3, &["cut.exr"]);
+    assert!(!here.join("one.exr").exists() && !here.join("one.json").exists());
+}

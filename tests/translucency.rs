@@ -293,7 +293,10 @@ fn thickness_and_color_are_estimated_from_the_leaf_texture() {
     let color = &sheets.as_object().unwrap().values().next().unwrap()["color"];
     assert_eq!(color["estimate"], true, "{sheets}");
     let factor: Vec<f64> = color["factor"].as_array().unwrap().iter().map(|part| part.as_f64().unwrap()).collect();
-    assert!(factor[1] == 1.0 && factor[0] < 1.0 && factor[2] < factor[0], "light through a linden is green: {factor:?}");
+    assert!(
+        factor[1] > 0.999 && factor[0] < 1.0 && factor[2] < factor[0],
+        "light through a linden is green: {factor:?}"
+    );
     let (json, _) = open_glb(&baked);
     let shown = json["materials"].as_array().unwrap().iter().filter_map(|material| {
         material["extensions"]["KHR_materials_diffuse_transmission"]["diffuseTransmissionColorFactor"].as_array()

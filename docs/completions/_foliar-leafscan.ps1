@@ -30,6 +30,8 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-leafscan' -ScriptBlock {
             [CompletionResult]::new('--expand-instances', '--expand-instances', [CompletionResultType]::ParameterName, 'Every node that draws a shared mesh gets a mesh of its own (else it is baked once, for its first node).')
             [CompletionResult]::new('--search', '--search', [CompletionResultType]::ParameterName, 'Folders outside the asset''s own that textures and buffers may be read from.')
             [CompletionResult]::new('--texture', '--texture', [CompletionResultType]::ParameterName, 'Loose images for parts without one: PART=FILE.')
+            [CompletionResult]::new('--height-front', '--height-front', [CompletionResultType]::ParameterName, 'Heights of the front, outward, in place of a mesh: PNG of 16 bits, TIFF or EXR.')
+            [CompletionResult]::new('--height-back', '--height-back', [CompletionResultType]::ParameterName, 'Heights of the back, outward, texel by texel behind those of the front.')
             [CompletionResult]::new('--resolution', '--resolution', [CompletionResultType]::ParameterName, 'Texels along the longer side of the maps. [at least 8, at most 16384, default 1024]')
             [CompletionResult]::new('--unwrap', '--unwrap', [CompletionResultType]::ParameterName, 'Where the maps lie. [default "plane"]')
             [CompletionResult]::new('--face', '--face', [CompletionResultType]::ParameterName, 'Which side is the front, where maps lie on a plane. [default "up"]')

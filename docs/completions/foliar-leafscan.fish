@@ -8,6 +8,8 @@ complete -c foliar-leafscan -l expand-instances -d 'Every node that draws a shar
 false\t''"
 complete -c foliar-leafscan -l search -d 'Folders outside the asset\'s own that textures and buffers may be read from.' -r
 complete -c foliar-leafscan -l texture -d 'Loose images for parts without one: PART=FILE.' -r
+complete -c foliar-leafscan -l height-front -d 'Heights of the front, outward, in place of a mesh: PNG of 16 bits, TIFF or EXR.' -r
+complete -c foliar-leafscan -l height-back -d 'Heights of the back, outward, texel by texel behind those of the front.' -r
 complete -c foliar-leafscan -l resolution -d 'Texels along the longer side of the maps. [at least 8, at most 16384, default 1024]' -r
 complete -c foliar-leafscan -l unwrap -d 'Where the maps lie. [default "plane"]' -r -f -a "plane\t'On the plane that the leaf keeps nearest to.'
 uv\t'In the mesh\'s own texture coordinates.'"

@@ -112,6 +112,38 @@ fn out_of_range(name: &str, array: &Array) -> Option<(usize, f32)> {
     }
 }
 
+/// What no room can have written into a layer that was read from a tree; `None` where all of it may be sound.
+///
+/// Values of vertices may have been rounded on the way, so that a share of their range is let pass; columns come as they
+/// were written.
+pub(crate) fn damage(layer: &Layer) -> Option<String> {
+    const ROUNDED: f32 = 0.01;
+    const UNIT: f32 = 1e-6;
+    let beyond = |data: &[f32], [least, most]: [f32; 2], slack: f32| {
+        let slack = slack * (most - least).min(f32::MAX);
+        data.iter().position(|value| !(value.is_finite() && *value >= least - slack && *value <= most + slack))
+    };
+    let attribute = |(key, array): (&AttributeKey, &Array)| {
+        let (channel, data) = (channel(&key.name)?, array.as_f32()?);
+        let at = beyond(data, [channel.min, channel.max], ROUNDED)?;
+        Some(format!("{} of vertex {} is {}", key.name, at / array.width(), data[at]))
+    };
+    let in_column = |(key, array): (&ColumnKey, &Array)| {
+        let (column, data) = (column(&key.class, &key.property)?, array.as_f32()?);
+        let row = |at: usize| format!("{}/{} of row {} is", key.class, key.property, at / array.width());
+        let [least, most] = column.range;
+        let least = if column.name == "area" { 0.0 } else { least };
+        if let Some(at) = beyond(data, [least, most], 0.0) {
+            return Some(format!("{} {}", row(at), data[at]));
+        }
+        let length = |v: &[f32]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
+        let is_normal = column.name == "normal" && column.width == 3;
+        let bent = data.chunks(3).position(|v| is_normal && (length(v) - 1.0).abs() > UNIT)?;
+        Some(format!("{} of length {}", row(3 * bent), length(&data[3 * bent..3 * bent + 3])))
+    };
+    layer.attributes.iter().find_map(attribute).or_else(|| layer.columns.iter().find_map(in_column))
+}
+
 fn place_of(text: &str) -> Option<Place> {
     let (mesh, primitive) = text.split_once('/')?;
     Some(Place { mesh: mesh.parse().ok()?, primitive: primitive.parse().ok()? })
@@ -156,5 +188,30 @@ fn array(tensor: &TensorView) -> Result<Array, String> {
         Dtype::F32 => Ok(Array::F32 { width, data: words.map(f32::from_le_bytes).collect() }),
         Dtype::I32 => Ok(Array::I32 { width, data: words.map(i32::from_le_bytes).collect() }),
         other => Err(format!("numbers of type {other:?} must be F32 or I32")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn numbers_that_no_room_writes_are_damage() {
+        let layer = |property: &str, width: usize, data: Vec<f32>| {
+            let key = ColumnKey { class: names::CLASS_LEAF.into(), property: property.into() };
+            Layer { columns: [(key, Array::F32 { width, data })].into(), ..Layer::default() }
+        };
+        assert_eq!(damage(&layer("normal", 3, vec![0.0, 1.0, 0.0, 0.6, 0.0, 0.8])), None);
+        let bent = damage(&layer("normal", 3, vec![0.0, 1.0, 0.0, 0.6, 0.0, 0.7])).unwrap();
+        assert!(bent.contains("row 1") && bent.contains("length"), "{bent}");
+        for wild in [f32::NAN, f32::INFINITY, 1e38] {
+            assert!(damage(&layer("normal", 3, vec![wild, 0.0, 0.0])).is_some(), "{wild}");
+        }
+        assert!(damage(&layer("area", 1, vec![0.5, -1.0])).unwrap().contains("row 1 is -1"));
+        let key = AttributeKey { place: Place { mesh: 0, primitive: 0 }, name: names::AMBIENT.into() };
+        let ambient =
+            |data| Layer { attributes: [(key.clone(), Array::F32 { width: 1, data })].into(), ..Layer::default() };
+        // Eight bits may have rounded it.
+        assert_eq!(damage(&ambient(vec![0.0, 1.004])), None);
+        assert!(damage(&ambient(vec![0.0, 2.0])).unwrap().contains("vertex 1"));
     }
 }

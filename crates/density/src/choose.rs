@@ -11,14 +11,17 @@ use crate::lattice::Lattice;
 use crate::measure;
 use crate::medium::SkySample;
 use crate::params::Params;
-use crate::sky::Sky;
+use crate::sky::{Sky, most_swept, swept};
 use foliar_schema::MeasuredError;
 use rayon::prelude::*;
 
 /// Lattice points per radius that are tried, coarsest first.
 const RUNGS: [f64; 9] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0];
-/// Most lattice points, and fewest of these: a large plant may have as many as it has vertices.
-const FEWEST_MOST_POINTS: usize = 1 << 20;
+/// Most lattice points, and fewest of these: a large plant may have as many as it has vertices. A small one whose leaves
+/// are small beside it needs more than it has vertices, or every ball would be asked for every leaf.
+const FEWEST_MOST_POINTS: usize = 1 << 22;
+/// Most points that one sweep may fill, 4 bytes each.
+const MOST_SWEPT: f64 = (1 << 25) as f64;
 
 /// What things cost, in nanoseconds of one common processor: only their ratios count.
 mod cost {
@@ -28,8 +31,8 @@ mod cost {
     pub const DISK: f64 = 60.0;
     /// A place, for each axis swept.
     pub const LOOK: f64 = 16.0;
-    /// A lattice point, for each axis swept.
-    pub const SWEEP: f64 = 9.0;
+    /// A point of a column.
+    pub const SWEEP: f64 = 3.0;
     /// A lattice point that is filled.
     pub const POINT: f64 = 4.0;
     /// A ball that is put onto a lattice.
@@ -110,8 +113,11 @@ fn swept_sky(
     let mut climb = Climb::new(2.0, 1.5, params.quality());
     for points in RUNGS {
         let lattice = Lattice::around(foliage.own(), foliage.radius, points, most);
-        let sweeps = AXES as f64 * (queries.len() as f64 * cost::LOOK + lattice.points() as f64 * cost::SWEEP);
-        if lattice.is_coarser_than(points) || sweeps + foliage.generators.len() as f64 * cost::SPLAT >= dear {
+        let sweeps = (AXES * queries.len()) as f64 * cost::LOOK + swept(&lattice) * cost::SWEEP;
+        if lattice.is_coarser_than(points)
+            || most_swept(&lattice) > MOST_SWEPT
+            || sweeps + foliage.generators.len() as f64 * cost::SPLAT >= dear
+        {
             return None;
         }
         if climb.may_keep(points) {

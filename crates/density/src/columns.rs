@@ -25,6 +25,20 @@ pub(crate) struct Columns<'a> {
 impl<'a> Columns<'a> {
     /// Sweeps the density on a lattice along a unit vector (trapezoids).
     pub fn new(lattice: &'a Lattice, density: &[f32], toward: DVec3) -> Columns<'a> {
+        let mut columns = Columns::empty(lattice, toward);
+        columns.sweep(density);
+        columns
+    }
+
+    /// Number of points that a sweep along a unit vector fills: three times the lattice's where that is as high as it is
+    /// wide, and without end where it is long and thin and the vector slants across.
+    pub fn points(lattice: &Lattice, toward: DVec3) -> f64 {
+        let columns = Columns::empty(lattice, toward);
+        let planes = lattice.size[columns.axis] as f64;
+        planes * columns.width[0] as f64 * columns.width[1] as f64
+    }
+
+    fn empty(lattice: &'a Lattice, toward: DVec3) -> Columns<'a> {
         let axis = toward.abs().max_position();
         let across = [[1, 2], [0, 2], [0, 1]][axis];
         let slope = DVec2::new(toward[across[0]], toward[across[1]]) / toward[axis];
@@ -36,9 +50,7 @@ impl<'a> Columns<'a> {
         let width = (high - low).ceil() + 1.0;
         let width = [width.x as usize, width.y as usize];
         let up = toward[axis] > 0.0;
-        let mut columns = Columns { lattice, toward, axis, across, slope, low, width, up, depths: Vec::new() };
-        columns.sweep(density);
-        columns
+        Columns { lattice, toward, axis, across, slope, low, width, up, depths: Vec::new() }
     }
 
     fn sweep(&mut self, density: &[f32]) {

@@ -101,11 +101,21 @@ impl Medium<'_> {
             };
             queries.par_iter().zip(&own).with_min_len(1024).map(depths).collect()
         };
-        // Columns are wider than the lattice: about three times as many points.
-        let at_once = (POINTS_AT_ONCE / (3 * lattice.points())).clamp(1, AXES);
+        let at_once = (POINTS_AT_ONCE as f64 / most_swept(lattice)) as usize;
+        let at_once = at_once.clamp(1, AXES);
         let swept = axes.chunks(at_once).flat_map(|axes| axes.par_iter().map(along).collect::<Vec<_>>());
         chords::Depths { axes: swept.collect(), pairs: 0 }
     }
+}
+
+/// Points that the longest sweep of a lattice fills.
+pub(crate) fn most_swept(lattice: &Lattice) -> f64 {
+    sky_axes().into_iter().map(|axis| Columns::points(lattice, axis)).fold(0.0, f64::max)
+}
+
+/// Points that all sweeps of a lattice fill.
+pub(crate) fn swept(lattice: &Lattice) -> f64 {
+    sky_axes().into_iter().map(|axis| Columns::points(lattice, axis)).sum()
 }
 
 /// Depths less the chords of a query's own balls.

@@ -197,8 +197,14 @@ struct Wanted<'a> {
     given: Map<String, Value>,
 }
 
-/// What makes two sets of maps the same: the file of each map, and what was given for them.
-type Source = (Vec<(String, PathBuf)>, Map<String, Value>);
+/// What makes two sets of maps the same.
+#[derive(PartialEq)]
+struct Source {
+    /// The file of each map.
+    files: Vec<(String, PathBuf)>,
+    given: Map<String, Value>,
+    own: Option<Own>,
+}
 
 /// Reads the maps of a room.
 ///
@@ -221,15 +227,13 @@ pub fn gather(gathering: &Gathering, baker: &dyn Baker, entries: &[Entry]) -> Re
         for (map, entry) in &material.entries {
             files.push(((*map).to_owned(), shelf.find(entry)?));
         }
-        let key = (files, material.given.clone());
         let own = Own::of(gathering.plant, &material.name, from_photo(&material.given));
-        // An outline or a picture of its own makes a material a set of its own.
-        let is_shared = own.as_ref().is_none_or(|own| own.alpha.is_none() && own.color.is_none());
-        match known.iter().position(|other| *other == key).filter(|_| is_shared) {
+        let source = Source { files, given: material.given.clone(), own };
+        match known.iter().position(|other| *other == source) {
             Some(at) => gathered.sheets[at].materials.push(material.name),
             None => {
-                gathered.sheets.push(shelf.sheet(&material, &key.0, own, &mut gathered.findings)?);
-                known.push(key);
+                gathered.sheets.push(shelf.sheet(&material, &source, &mut gathered.findings)?);
+                known.push(source);
             }
         }
     }

@@ -4,6 +4,7 @@ use super::Contents;
 use super::maps::MapReader;
 use crate::accessor::{Source, type_width};
 use crate::document::{index_of, primitives};
+use crate::layer_file::damage;
 use crate::notes::{PROPERTIES, TABLES, id_names};
 use crate::{CarrierError, Document, neutral};
 use foliar_bake::{Array, AttributeKey, ColumnKey, Layer};
@@ -33,7 +34,19 @@ pub(super) fn read(
     let source = Source { document, file };
     let roles = primitives(document).filter_map(|(place, p)| Some((place, role_of(p)?))).collect();
     let reader = Reader { source, contents, roles, files };
-    contents.extension.records.iter().map(|record| reader.layer(record, findings)).collect()
+    let mut layers = Vec::new();
+    for record in &contents.extension.records {
+        let layer = reader.layer(record, findings)?;
+        match damage(&layer) {
+            None => layers.push(layer),
+            // What is found again from the base is worth more than numbers that nobody can have meant.
+            Some(problem) => {
+                let message = format!("{}: {problem}: the layer is damaged and left out: bake it again", record.room);
+                findings.push(Finding::new(&code::STALE, message).in_file(file));
+            }
+        }
+    }
+    Ok(layers)
 }
 
 fn role_of(primitive: &Value) -> Option<Role> {

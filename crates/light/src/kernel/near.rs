@@ -9,8 +9,10 @@ use super::{Batch, Depths, LANES};
 use crate::profile::MOST_OCCLUSION;
 use pulp::Simd;
 
-/// Least squared distance: a pair that coincides is as dark as one at this. Its square is still a number in f32.
-const NEAREST: f32 = 1e-18;
+/// Least squared distance: a pair that coincides is as dark as one at this.
+const NEAREST: f32 = 1e-24;
+/// What squares are scaled by, so that the product of two stays a number in f32, from the nearest pair to the largest leaf.
+const SCALE: f32 = (1u32 << 30) as f32;
 /// Where a product begins: sixteen leaves that hide the most leave 2^-120 of it, which still has all digits.
 pub const WHOLE: f32 = 256.0;
 /// Power of two of the whole.
@@ -53,6 +55,7 @@ fn occlusion<const CAP: bool, S: Simd>(square: Lanes<S>, area: f32) -> Lanes<S> 
     let square = square.max(NEAREST);
     if CAP {
         // 4 q / (r (r + 1)) with q = area / (2 square) and r = sqrt(1 + q), with one division.
+        let (square, area) = (square * SCALE, area * SCALE);
         let wide = square + 0.5 * area;
         2.0 * area / (wide + (square * wide).sqrt())
     } else {

@@ -15,27 +15,58 @@ use foliar_carrier::OutputFile;
 use foliar_schema::names;
 use std::path::{Path, PathBuf};
 
+/// What differs from program to program where maps are all that is given.
+pub(super) struct OnMaps<'a> {
+    /// Maps without which nothing can be made.
+    pub needs: &'a [&'a str],
+    /// What else one may have meant.
+    pub otherwise: &'a str,
+    /// Files of what was baked.
+    pub encode: fn(&Layer, &Path) -> Result<Vec<OutputFile>, Failure>,
+    /// What is said of them.
+    pub words: fn(&Layer, &Path) -> Vec<String>,
+}
+
 /// Runs the command.
 pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
+    let room = baker.room();
+    let sources = Sources::new(call, Direct::Sections(&[room]))?;
+    let output = output(&Options::from(call.matches), room)?;
+    let needs = baker.needs().maps;
+    bake(
+        call,
+        baker,
+        &sources,
+        &output,
+        &OnMaps { needs, otherwise: "for a tree name the tree too", encode, words: |_, _| Vec::new() },
+    )
+}
+
+/// Bakes maps, and nothing else.
+pub(super) fn bake(
+    call: &Call,
+    baker: &dyn Baker,
+    sources: &Sources,
+    output: &Path,
+    on_maps: &OnMaps,
+) -> Result<(), Failure> {
     let options = Options::from(call.matches);
     let console = options.console();
     let room = baker.room();
-    let sources = Sources::new(call, Direct::Sections(&[room]))?;
-    let output = output(&options, room)?;
-    let job = Job { input: PathBuf::from(room), output: Some(output.clone()) };
+    let job = Job { input: PathBuf::from(room), output: Some(output.to_path_buf()) };
     runner::run(&options, &console, &[job], &mut |_, report| {
         let mut settings = sources.gather(&options, Path::new(""), Settings::default())?;
         report.read.extend(settings.files.iter().cloned());
         let entries = maps::named(call.fields, &mut settings, Path::new(""))?;
         let gathering = Gathering { fields: call.fields, settings: &settings, input: Path::new(""), plant: None };
         let own = entries.get(room).cloned().unwrap_or_default();
-        if let Some(missing) = baker.needs().maps.iter().find(|map| !own.iter().any(|entry| entry.is(map))) {
-            let text =
-                format!("{room} needs a map of {missing}: give it with --{missing} FILE; for a tree name the tree too");
+        if let Some(missing) = on_maps.needs.iter().find(|map| !own.iter().any(|entry| entry.is(map))) {
+            let otherwise = on_maps.otherwise;
+            let text = format!("{room} needs a map of {missing}: give it with --{missing} FILE; {otherwise}");
             return Err(Failure::usage(text));
         }
         if options.mode == Mode::DryRun {
-            return Ok(report.planned(&output, baker.about()));
+            return Ok(report.planned(output, baker.about()));
         }
         let gathered = maps::gather(&gathering, baker, &own)?;
         report.find(gathered.findings);
@@ -51,7 +82,8 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
         report.find(findings.into_iter().map(|finding| sheet.placed(finding)));
         report.set("facts", layer.record.facts.clone());
         console.log(&report.lap(room));
-        let files = encode(&layer, &output)?;
+        (on_maps.words)(&layer, output).iter().for_each(|line| console.note(line));
+        let files = (on_maps.encode)(&layer, output)?;
         console.log(&report.lap("encode"));
         Ok(Product::Files(files))
     })

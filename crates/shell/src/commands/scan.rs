@@ -1,10 +1,13 @@
 //! `foliar-leafscan`, and every baker of a mesh that is no tree: maps for a library, one file per map.
 
 use super::Call;
+use super::alone::OnMaps;
 use crate::Failure;
+use crate::config::Settings;
 use crate::flags::Direct;
 use crate::gather::Sources;
 use crate::load;
+use crate::maps;
 use crate::options::{Mode, Options};
 use crate::outputs::{self, Job};
 use crate::progress::Bar;
@@ -25,10 +28,16 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
     let jobs = outputs::jobs(&options)?;
     let Some(output) = options.output.clone() else { return Err(Failure::usage(WHERE)) };
     check_ending(&output)?;
+    if options.inputs.is_empty() {
+        return super::alone::bake(call, baker, &sources, &output, &HEIGHTS);
+    }
     runner::run(&options, &console, &jobs, &mut |job: &Job, report| {
         let asset = load::asset(&sources, &options, &job.input)?;
         report.asset(&asset);
-        let settings = sources.gather(&options, &job.input, crate::config::Settings::default())?;
+        let mut settings = sources.gather(&options, &job.input, Settings::default())?;
+        if maps::named(call.fields, &mut settings, &job.input)?.values().any(|entries| !entries.is_empty()) {
+            return Err(Failure::usage("a mesh or two height maps, and not both: leave one of them out"));
+        }
         console.log(&report.lap("read"));
         if options.mode == Mode::DryRun {
             return Ok(report.planned(&output, baker.about()));
@@ -46,6 +55,14 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
         Ok(Product::Files(encode(&layer, &output)?))
     })
 }
+
+/// Two height maps in place of a mesh.
+const HEIGHTS: OnMaps = OnMaps {
+    needs: &[names::MAP_HEIGHT_FRONT, names::MAP_HEIGHT_BACK],
+    otherwise: "or name the mesh of a leaf",
+    encode,
+    words,
+};
 
 const WHERE: &str = "where to? say -o NAME.exr or NAME.png: thickness goes there, every other map beside it";
 

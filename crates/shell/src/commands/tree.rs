@@ -196,9 +196,11 @@ fn library(command: Command, fields: &Fields, room: &str) -> Command {
 fn scan(command: Command, fields: &Fields, room: &str) -> Command {
     let command = command
         .arg(
-            flags::inputs("MESH", "OBJ, glTF or GLB file of one closed leaf; - is standard input")
-                .num_args(1)
-                .required(true),
+            flags::inputs(
+                "MESH",
+                "OBJ, glTF or GLB file of one closed leaf; - is standard input; none: two height maps",
+            )
+            .num_args(0..=1),
         )
         .arg(
             flags::output("Output: .exr (every bit), .png (16 bits) of thickness, the other maps beside it; or .layer")

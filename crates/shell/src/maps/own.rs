@@ -8,7 +8,8 @@ use foliar_plant::{AlphaMode, Material, Plant, Raster};
 /// Alpha of a blended material from which it counts as leaf.
 const BLEND_CUTOFF: f32 = 0.5;
 
-/// Maps made of a material's own color.
+/// Maps made of a material's own color. Materials share a set where all of it is the same.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Own {
     /// Its mean over the leaf, linear, one texel.
     pub albedo: MapRaster,
@@ -19,22 +20,27 @@ pub(super) struct Own {
 }
 
 impl Own {
-    /// The color of a material of this name; none where there is no such material, or it has no picture.
+    /// The color of a material of this name; none where there is no such material.
     pub fn of(plant: Option<&Plant>, name: &str, with_color: bool) -> Option<Own> {
         let base = plant?.base();
         let index =
             (0..base.materials.len() as u32).find(|index| plant.is_some_and(|p| material_name(p, *index) == name))?;
         let material = base.materials.get(index as usize)?;
-        let raster = base.rasters.get(material.base_color_raster? as usize)?;
-        let map = |channels: u32, data: Vec<f32>, bits: u32| {
-            let (width, height) = if bits == 32 { (1, 1) } else { (raster.width, raster.height) };
-            MapRaster { raster: FloatRaster { width, height, channels, data }, bits }
+        let map = |(width, height): (u32, u32), channels: u32, data: Vec<f32>, bits: u32| MapRaster {
+            raster: FloatRaster { width, height, channels, data },
+            bits,
         };
+        let raster = material.base_color_raster.and_then(|raster| base.rasters.get(raster as usize));
+        let [r, g, b, _] = material.base_color;
+        let Some(raster) = raster else {
+            return Some(Own { albedo: map((1, 1), 3, vec![r, g, b], 32), color: None, alpha: None });
+        };
+        let size = (raster.width, raster.height);
         let color = || raster.rgba.chunks_exact(4).flat_map(|texel| [0, 1, 2].map(|c| f32::from(texel[c]) / 255.0));
         Some(Own {
-            albedo: map(3, albedo(material, raster).to_vec(), 32),
-            color: with_color.then(|| map(3, color().collect(), 8)),
-            alpha: alpha(material, raster).map(|data| map(1, data, 8)),
+            albedo: map((1, 1), 3, albedo(material, raster).to_vec(), 32),
+            color: with_color.then(|| map(size, 3, color().collect(), 8)),
+            alpha: alpha(material, raster).map(|data| map(size, 1, data, 8)),
         })
     }
 }

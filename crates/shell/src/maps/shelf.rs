@@ -1,7 +1,6 @@
 //! Files of maps, each read once, and the sets that they make.
 
-use super::own::Own;
-use super::{Entry, Gathering, Sheet, Wanted, from_photo};
+use super::{Entry, Gathering, Sheet, Source, Wanted, from_photo};
 use crate::Failure;
 use crate::config::Origin;
 use crate::options::is_dash;
@@ -54,27 +53,22 @@ impl Shelf<'_> {
     }
 
     /// Reads one set.
-    pub fn sheet(
-        &mut self,
-        wanted: &Wanted,
-        files: &[(String, PathBuf)],
-        own: Option<Own>,
-        findings: &mut Vec<Finding>,
-    ) -> Result<Sheet, Failure> {
+    pub fn sheet(&mut self, wanted: &Wanted, source: &Source, findings: &mut Vec<Finding>) -> Result<Sheet, Failure> {
         let mut sheet = Sheet {
             name: wanted.name.clone(),
             materials: vec![wanted.name.clone()],
             given: wanted.given.clone(),
-            files: files.iter().cloned().collect(),
+            files: source.files.iter().cloned().collect(),
             ..Sheet::default()
         };
-        for (map, file) in files {
+        for (map, file) in &source.files {
             let found = self.read(file)?;
             let entry = wanted.entries.get(map.as_str());
             sheet.reads.insert(format!("map/{}", entry.map_or(map.as_str(), |e| &e.name)), found.hash.clone());
         }
         let bytes = |file: &PathBuf| (self.read[file].bytes.as_slice(), file.display().to_string());
-        let (photographs, files): (Vec<_>, Vec<_>) = files.iter().partition(|(map, _)| map == names::MAP_BACKLIT);
+        let (photographs, files): (Vec<_>, Vec<_>) =
+            source.files.iter().partition(|(map, _)| map == names::MAP_BACKLIT);
         for (_, file) in photographs {
             let (bytes, name) = bytes(file);
             sheet.pictures.insert(names::PICTURE_COLOR.into(), photograph(bytes, &name)?);
@@ -96,14 +90,16 @@ impl Shelf<'_> {
             }
             sheet.maps.insert(map.clone(), read.map);
         }
-        if let Some(own) = own {
+        if let Some(own) = source.own.clone() {
             sheet.maps.insert(names::MAP_ALBEDO.into(), own.albedo);
             if from_photo(&wanted.given) && !sheet.maps.contains_key(names::MAP_THICKNESS) {
                 sheet.maps.extend(own.color.map(|color| (names::MAP_THICKNESS.to_owned(), color)));
             }
             alpha = alpha.or(own.alpha);
         }
-        if let Some(thickness) = sheet.maps.get(names::MAP_THICKNESS).filter(|_| !sheet.maps.contains_key(names::MAP_ALPHA)) {
+        if let Some(thickness) =
+            sheet.maps.get(names::MAP_THICKNESS).filter(|_| !sheet.maps.contains_key(names::MAP_ALPHA))
+        {
             let (width, height) = (thickness.raster.width, thickness.raster.height);
             let alpha = alpha.map(|alpha| (names::MAP_ALPHA.to_owned(), resampled(alpha, width, height)));
             sheet.maps.extend(alpha);

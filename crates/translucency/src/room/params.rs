@@ -185,7 +185,7 @@ pub struct Params {
     #[schemars(extend("x-map" = names::MAP_HEIGHT_BACK))]
     pub height_back: Vec<String>,
     /// Photograph of the leaf against the light, PNG or JPEG, `FILE` or `MATERIAL=FILE`: the color of what comes through,
-    /// passed on as it is. Without one it is the viewer's white.
+    /// passed on as it is. Without one it is estimated from the base color.
     #[schemars(extend("x-map" = names::MAP_BACKLIT))]
     pub backlit: Vec<String>,
     /// Leaf materials that maps without a name belong to (`*leaf*`, case ignored); nothing given: the only one that there is.

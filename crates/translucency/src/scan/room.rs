@@ -43,6 +43,12 @@ pub enum Face {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ScanParams {
+    /// Heights of the front, outward, in place of a mesh: PNG of 16 bits, TIFF or EXR.
+    #[schemars(extend("x-map" = names::MAP_HEIGHT_FRONT))]
+    pub height_front: Vec<String>,
+    /// Heights of the back, outward, texel by texel behind those of the front.
+    #[schemars(extend("x-map" = names::MAP_HEIGHT_BACK))]
+    pub height_back: Vec<String>,
     /// Texels along the longer side of the maps.
     #[schemars(range(min = 8, max = 16_384))]
     pub resolution: u32,
@@ -68,6 +74,8 @@ pub struct ScanParams {
 impl Default for ScanParams {
     fn default() -> Self {
         ScanParams {
+            height_front: Vec::new(),
+            height_back: Vec::new(),
             resolution: 1024,
             unwrap: Unwrap::default(),
             face: Face::default(),

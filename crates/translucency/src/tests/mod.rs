@@ -14,7 +14,8 @@ use std::path::PathBuf;
 
 /// A file of the shared data as text; `None` where there is none.
 fn shared(path: &str) -> Option<String> {
-    let root = std::env::var_os("FOLIAR_SHARED").map_or_else(|| "../shared".into(), PathBuf::from);
+    let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared");
+    let root = std::env::var_os("FOLIAR_SHARED").map_or_else(|| beside.into(), PathBuf::from);
     let text = std::fs::read_to_string(root.join(path)).ok();
     if text.is_none() {
         eprintln!("skipped: no shared data ({path})");
