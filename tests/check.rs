@@ -86,3 +86,36 @@ fn real_trees_give_no_error_and_only_judged_warnings() {
     }
     assert!(unjudged.is_empty() && files.len() > 30, "{unjudged:#?} in {} files", files.len());
 }
+
+/// What is held against nothing loses nothing: a master without layers would pass everything.
+#[test]
+fn a_master_must_hold_layers() {
+    let here = folder();
+    let (obj, out) = (tree(here.path(), 40), output("check-master.glb"));
+    run(FOLIAR, &["bake", text(&obj), "-o", text(&out)]).expect(0, &[]);
+    let checks = |master: &str| run_in(here.path(), CHECK, &["--after", text(&out), "--master", master]);
+    checks(text(&out)).expect(0, &[]);
+    checks("tree.obj").expect(2, &["--master tree.obj", "no layer of foliar", "baked"]);
+    std::fs::write(here.path().join("cut.glb"), b"glTF").unwrap();
+    checks("cut.glb").expect(2, &["--master cut.glb", "no layer of foliar"]);
+    // A version that nobody knows is given up early; its materials have names all the same.
+    let old = r#"{"asset":{"version":"7.0"},"materials":[{"name":"bark"}],"meshes":[]}"#;
+    std::fs::write(here.path().join("old.gltf"), old).unwrap();
+    run_in(here.path(), CHECK, &["--after", "old.gltf", "--master", text(&out)]).expect(1, &[]);
+}
+
+/// Alpha in a picture of its own beside a color without any: the usual form of bought libraries.
+#[test]
+fn alpha_may_be_a_picture_of_its_own() {
+    let here = folder();
+    let obj = tree(here.path(), 40);
+    image::RgbImage::from_pixel(8, 8, image::Rgb([40, 90, 30])).save(here.path().join("leaf.jpg")).unwrap();
+    image::GrayImage::from_fn(8, 8, |x, _| image::Luma([if x < 4 { 255 } else { 0 }])).save(here.path().join("cut.png")).unwrap();
+    let materials = |alpha: &str| format!("newmtl bark\nKd 0.4 0.3 0.2\nnewmtl leaves\nmap_Kd leaf.jpg\n{alpha}");
+    std::fs::write(here.path().join("tree.mtl"), materials("map_d cut.png\n")).unwrap();
+    let said = run(CHECK, &[text(&obj)]).expect(0, &[]).stdout;
+    assert!(!said.contains("ALPHA-MISSING"), "{said}");
+    std::fs::write(here.path().join("tree.mtl"), materials("map_d leaf.jpg\n")).unwrap();
+    let said = run(CHECK, &[text(&obj)]).stdout;
+    assert!(said.contains("ALPHA-MISSING"), "{said}");
+}

@@ -196,7 +196,9 @@ fn tables(after: &Survey, master: &Survey, report: &mut Report) {
 /// Materials by name: what became of their alpha, and of the names.
 fn materials(after: &Survey, master: &Survey, report: &mut Report) {
     let holes = |seen: &Survey, index: usize| {
-        let picture = seen.base_pictures[index].map(|picture| &seen.pictures[picture].found);
+        // A file that was given up early has materials and no pictures.
+        let picture = seen.base_pictures.get(index).copied().flatten();
+        let picture = picture.map(|picture| &seen.pictures[picture].found);
         !matches!(picture, Some(Found::Picture { has_alpha: false, .. } | Found::Missing(_)))
     };
     let named = |seen: &Survey| -> BTreeMap<String, (String, bool)> {

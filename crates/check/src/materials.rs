@@ -41,6 +41,7 @@ fn alpha(subject: &Subject, index: usize, report: &mut Report) {
     let picture = subject.seen.base_pictures.get(index).copied().flatten().map(|p| &subject.seen.pictures[p]);
     let found = picture.map(|picture| &picture.found);
     let Some(Found::Picture { has_alpha, .. }) = found else { return };
+    let has_alpha = &(*has_alpha || subject.seen.own_masks.contains(&index));
     let called = format!("leaf material {:?}", name(&material.name));
     let place = format!("/materials/{index}");
     match material.alpha_mode {

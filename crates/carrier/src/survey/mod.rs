@@ -63,6 +63,8 @@ pub struct Survey {
     pub pictures: Vec<Picture>,
     /// Per material: its base color picture, index into `pictures`.
     pub base_pictures: Vec<Option<usize>>,
+    /// Materials of an OBJ whose alpha is a picture of its own (`map_d`), beside a color without any.
+    pub own_masks: std::collections::BTreeSet<usize>,
     /// Number of an OBJ's `v` lines that no face uses.
     pub unused_positions: usize,
     /// What could not be read.
@@ -164,6 +166,7 @@ pub fn survey(bytes: Vec<u8>, name: &str, folder: &Path, import: &Import) -> Sur
         base: Base::default(),
         pictures: Vec::new(),
         base_pictures: Vec::new(),
+        own_masks: std::collections::BTreeSet::new(),
         unused_positions: 0,
         problems: Vec::new(),
         findings: Vec::new(),

@@ -87,6 +87,9 @@ fn material(name: &str, defined: &Defined, source: &Source, known: &mut BTreeMap
     let holds_alpha = |index: usize| matches!(seen.pictures[index].found, Found::Picture { has_alpha: true, .. });
     let masked = mask.is_some() || color.is_some_and(holds_alpha);
     let [red, green, blue] = said.kd.unwrap_or([1.0; 3]).map(|c| c as f32);
+    if mask.is_some_and(|mask| color != Some(mask) && matches!(seen.pictures[mask].found, Found::Picture { .. })) {
+        seen.own_masks.insert(seen.base.materials.len());
+    }
     seen.base_pictures.push(color);
     seen.base.materials.push(Material {
         name: Some(name.into()),

@@ -39,7 +39,17 @@ pub fn run(call: &Call) -> Result<(), Failure> {
             check: given.section("check")?,
         };
         if let (Some((path, bytes)), None) = (&master, &seen) {
-            seen = Some(survey(bytes.clone(), &path.display().to_string(), folder(path), &settings.import));
+            let master = survey(bytes.clone(), &path.display().to_string(), folder(path), &settings.import);
+            if master.foliage().is_none() {
+                let problem = master.problems.first().map(|problem| format!(" ({})", problem.text));
+                return Err(Failure::usage(format!(
+                    "--master {}: holds no layer of foliar{}, so that nothing can be lost from it: name the file that \
+                     foliar baked",
+                    path.display(),
+                    problem.unwrap_or_default()
+                )));
+            }
+            seen = Some(master);
         }
         report.read.extend(master.iter().map(|(path, _)| path.to_path_buf()));
         one(&job.input, &settings, &asked, seen.as_ref(), report, &mut found)?;
