@@ -1,6 +1,6 @@
 //! `foliar-check`: what it reports, and the status that says so.
 
-use crate::common::{CHECK, FOLIAR, folder, output, run, run_in, shared, text, tree};
+use crate::common::{CHECK, FOLIAR, folder, glb, open_glb, output, run, run_in, shared, text, tree};
 use std::path::PathBuf;
 
 #[test]
@@ -118,4 +118,25 @@ fn alpha_may_be_a_picture_of_its_own() {
     std::fs::write(here.path().join("tree.mtl"), materials("map_d leaf.jpg\n")).unwrap();
     let said = run(CHECK, &[text(&obj)]).stdout;
     assert!(said.contains("ALPHA-MISSING"), "{said}");
+}
+
+/// A layer that holds what no room can have written is found again from the base, not handed on.
+#[test]
+fn a_damaged_layer_is_found_again() {
+    let here = folder();
+    let (obj, out) = (tree(here.path(), 40), output("check-damaged.glb"));
+    run(FOLIAR, &["bake", text(&obj), "-o", text(&out)]).expect(0, &[]);
+    let (json, mut binary) = open_glb(&out);
+    let tables = json["extensions"]["EXT_structural_metadata"]["propertyTables"].as_array().unwrap();
+    let leaves = tables.iter().find(|table| table["class"] == "foliarLeaf").unwrap();
+    let view = &json["bufferViews"][leaves["properties"]["normal"]["values"].as_u64().unwrap() as usize];
+    let at = view["byteOffset"].as_u64().unwrap_or(0) as usize;
+    binary[at..at + 4].copy_from_slice(&1e30f32.to_le_bytes());
+    let damaged = here.path().join("damaged.glb");
+    std::fs::write(&damaged, glb(&json, &binary)).unwrap();
+    let said = run(CHECK, &[text(&damaged)]).expect(1, &[]).stdout;
+    assert!(said.contains("CONTRACT-RANGE"), "{said}");
+    let mended = here.path().join("mended.glb");
+    run(FOLIAR, &["bake", text(&damaged), "-o", text(&mended)]).expect(0, &["STALE", "foliarLeaf/normal of row 0", "damaged"]);
+    run(CHECK, &[text(&mended)]).expect(0, &[]);
 }
