@@ -38,6 +38,7 @@ mod trees;
 mod triangles;
 mod uvs;
 
+pub use takeout::DAMAGED;
 pub use document::{Document, Side};
 pub use error::CarrierError;
 pub use hull::hull_document;

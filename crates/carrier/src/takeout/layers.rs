@@ -15,6 +15,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+/// What is said of a layer that holds what no room can have written.
+pub const DAMAGED: &str = "the layer is damaged and left out";
+
 /// What reading layers needs.
 struct Reader<'a> {
     source: Source<'a>,
@@ -41,7 +44,7 @@ pub(super) fn read(
             None => layers.push(layer),
             // What is found again from the base is worth more than numbers that nobody can have meant.
             Some(problem) => {
-                let message = format!("{}: {problem}: the layer is damaged and left out: bake it again", record.room);
+                let message = format!("{}: {problem}: {DAMAGED}: bake it again", record.room);
                 findings.push(Finding::new(&code::STALE, message).in_file(file));
             }
         }

@@ -6,6 +6,7 @@ mod layers;
 mod maps;
 mod strip;
 
+pub use layers::DAMAGED;
 use crate::notes::{Notes, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
 use foliar_bake::Layer;
