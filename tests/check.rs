@@ -110,7 +110,9 @@ fn alpha_may_be_a_picture_of_its_own() {
     let here = folder();
     let obj = tree(here.path(), 40);
     image::RgbImage::from_pixel(8, 8, image::Rgb([40, 90, 30])).save(here.path().join("leaf.jpg")).unwrap();
-    image::GrayImage::from_fn(8, 8, |x, _| image::Luma([if x < 4 { 255 } else { 0 }])).save(here.path().join("cut.png")).unwrap();
+    image::GrayImage::from_fn(8, 8, |x, _| image::Luma([if x < 4 { 255 } else { 0 }]))
+        .save(here.path().join("cut.png"))
+        .unwrap();
     let materials = |alpha: &str| format!("newmtl bark\nKd 0.4 0.3 0.2\nnewmtl leaves\nmap_Kd leaf.jpg\n{alpha}");
     std::fs::write(here.path().join("tree.mtl"), materials("map_d cut.png\n")).unwrap();
     let said = run(CHECK, &[text(&obj)]).expect(0, &[]).stdout;
@@ -137,6 +139,7 @@ fn a_damaged_layer_is_found_again() {
     let said = run(CHECK, &[text(&damaged)]).expect(1, &[]).stdout;
     assert!(said.contains("CONTRACT-RANGE"), "{said}");
     let mended = here.path().join("mended.glb");
-    run(FOLIAR, &["bake", text(&damaged), "-o", text(&mended)]).expect(0, &["STALE", "foliarLeaf/normal of row 0", "damaged"]);
+    run(FOLIAR, &["bake", text(&damaged), "-o", text(&mended)])
+        .expect(0, &["STALE", "foliarLeaf/normal of row 0", "damaged"]);
     run(CHECK, &[text(&mended)]).expect(0, &[]);
 }

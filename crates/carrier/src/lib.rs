@@ -38,11 +38,11 @@ mod trees;
 mod triangles;
 mod uvs;
 
-pub use takeout::DAMAGED;
 pub use document::{Document, Side};
 pub use error::CarrierError;
 pub use hull::hull_document;
 pub use output::{Step, write_files_with};
+pub use takeout::DAMAGED;
 
 use foliar_bake::{FloatRaster, Layer};
 use foliar_plant::Base;

@@ -2,8 +2,8 @@
 //! writer; what a scene requires; whether the base has changed since.
 
 use crate::{CheckError, Report, Subject};
-use foliar_carrier::{DAMAGED, second_reader};
 use foliar_carrier::survey::{Stale, Survey};
+use foliar_carrier::{DAMAGED, second_reader};
 use foliar_schema::{CHANNELS, Finding, Import, LATER_ROOMS, ROOMS, code, names};
 use glam::{DVec3, Vec3};
 use serde_json::Value;

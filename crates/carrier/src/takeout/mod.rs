@@ -6,11 +6,11 @@ mod layers;
 mod maps;
 mod strip;
 
-pub use layers::DAMAGED;
 use crate::notes::{Notes, RENAMED, root_pointer};
 use crate::{CarrierError, Document};
 use foliar_bake::Layer;
 use foliar_schema::{CONTRACT, Finding, FoliageExtension, code, names};
+pub use layers::DAMAGED;
 use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
