@@ -15,7 +15,7 @@ use crate::plan::Row;
 use crate::report::Report;
 use foliar_bake::{Baker, Layer, Maps};
 use foliar_plant::Plant;
-use foliar_schema::Finding;
+use foliar_schema::{Finding, names};
 use materials::{alone, by_material, photographed};
 use own::Own;
 use serde_json::{Map, Value};
@@ -79,6 +79,17 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// Adds a material that shares all maps; what they show by day is mixed.
+    fn join(&mut self, name: String, own: Option<&Own>) {
+        let count = self.materials.len() as f32;
+        self.materials.push(name);
+        let mixed = self.maps.get_mut(names::MAP_ALBEDO).zip(own);
+        for (mean, one) in mixed.into_iter().flat_map(|(m, own)| m.raster.data.iter_mut().zip(&own.albedo.raster.data))
+        {
+            *mean = (*mean * count + one) / (count + 1.0);
+        }
+    }
+
     /// A failure of its bake with the file of the map that it is about.
     pub fn blame(&self, failure: Failure) -> Failure {
         let text = failure.to_string();
@@ -198,12 +209,17 @@ struct Wanted<'a> {
 }
 
 /// What makes two sets of maps the same.
-#[derive(PartialEq)]
 struct Source {
     /// The file of each map.
     files: Vec<(String, PathBuf)>,
     given: Map<String, Value>,
     own: Option<Own>,
+}
+
+impl Source {
+    fn same(&self, other: &Source) -> bool {
+        self.files == other.files && self.given == other.given && Own::same(&self.own, &other.own)
+    }
 }
 
 /// Reads the maps of a room.
@@ -229,8 +245,8 @@ pub fn gather(gathering: &Gathering, baker: &dyn Baker, entries: &[Entry]) -> Re
         }
         let own = Own::of(gathering.plant, &material.name, from_photo(&material.given));
         let source = Source { files, given: material.given.clone(), own };
-        match known.iter().position(|other| *other == source) {
-            Some(at) => gathered.sheets[at].materials.push(material.name),
+        match known.iter().position(|other| other.same(&source)) {
+            Some(at) => gathered.sheets[at].join(material.name, source.own.as_ref()),
             None => {
                 gathered.sheets.push(shelf.sheet(&material, &source, &mut gathered.findings)?);
                 known.push(source);

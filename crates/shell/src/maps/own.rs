@@ -8,8 +8,8 @@ use foliar_plant::{AlphaMode, Material, Plant, Raster};
 /// Alpha of a blended material from which it counts as leaf.
 const BLEND_CUTOFF: f32 = 0.5;
 
-/// Maps made of a material's own color. Materials share a set where all of it is the same.
-#[derive(Clone, Debug, PartialEq)]
+/// Maps made of a material's own color.
+#[derive(Clone, Debug)]
 pub(super) struct Own {
     /// Its mean over the leaf, linear, one texel.
     pub albedo: MapRaster,
@@ -20,6 +20,13 @@ pub(super) struct Own {
 }
 
 impl Own {
+    /// Whether what it makes of a set of maps is what another makes of it, but for a color that can be mixed.
+    pub fn same(a: &Option<Own>, b: &Option<Own>) -> bool {
+        let pictures =
+            |own: &Option<Own>| own.as_ref().map(|own| (own.color.clone(), own.alpha.clone())).unwrap_or_default();
+        pictures(a) == pictures(b)
+    }
+
     /// The color of a material of this name; none where there is no such material.
     pub fn of(plant: Option<&Plant>, name: &str, with_color: bool) -> Option<Own> {
         let base = plant?.base();
