@@ -218,7 +218,7 @@ struct Source {
 
 impl Source {
     fn same(&self, other: &Source) -> bool {
-        self.files == other.files && self.given == other.given && Own::same(&self.own, &other.own)
+        self.files == other.files && self.given == other.given && Own::same(self.own.as_ref(), other.own.as_ref())
     }
 }
 

@@ -21,10 +21,9 @@ pub(super) struct Own {
 
 impl Own {
     /// Whether what it makes of a set of maps is what another makes of it, but for a color that can be mixed.
-    pub fn same(a: &Option<Own>, b: &Option<Own>) -> bool {
-        let pictures =
-            |own: &Option<Own>| own.as_ref().map(|own| (own.color.clone(), own.alpha.clone())).unwrap_or_default();
-        pictures(a) == pictures(b)
+    pub fn same(a: Option<&Own>, b: Option<&Own>) -> bool {
+        let is_same = |of: fn(&Own) -> Option<&MapRaster>| a.and_then(of) == b.and_then(of);
+        is_same(|own| own.color.as_ref()) && is_same(|own| own.alpha.as_ref())
     }
 
     /// The color of a material of this name; none where there is no such material.
