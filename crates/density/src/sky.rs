@@ -101,10 +101,10 @@ impl Medium<'_> {
             };
             queries.par_iter().zip(&own).with_min_len(1024).map(depths).collect()
         };
-        let at_once = (POINTS_AT_ONCE as f64 / most_swept(lattice)) as usize;
+        let at_once = (POINTS_AT_ONCE as f64 * AXES as f64 / swept(lattice)) as usize;
         let at_once = at_once.clamp(1, AXES);
-        let swept = axes.chunks(at_once).flat_map(|axes| axes.par_iter().map(along).collect::<Vec<_>>());
-        chords::Depths { axes: swept.collect(), pairs: 0 }
+        let each = axes.chunks(at_once).flat_map(|axes| axes.par_iter().map(along).collect::<Vec<_>>());
+        chords::Depths { axes: each.collect(), pairs: 0 }
     }
 }
 
