@@ -48,27 +48,35 @@ mod cost {
 /// density, and about the second for the sky.
 struct Climb {
     power: f64,
-    /// Points per radius from which the promise may be kept.
+    /// Points per radius that just keep the promise, by the law.
     least: f64,
+    /// Whether the law starts from what was measured on this plant.
+    measured: bool,
 }
 
 impl Climb {
     /// Starts from the error that trees of 40,000 leaves and more have at two points per radius, in steps.
     fn new(power: f64, at_two: f64, quality: f64) -> Climb {
-        let mut climb = Climb { power, least: 0.0 };
+        let mut climb = Climb { power, least: 0.0, measured: false };
         climb.missed(2.0, at_two / quality);
-        climb
+        Climb { measured: false, ..climb }
     }
 
     /// Whether a rung may keep the promise, after what was missed.
     fn may_keep(&self, points: f64) -> bool {
-        points >= self.least
+        // A little less than the law says: what is measured decides.
+        points >= 0.95 * self.least
     }
 
-    /// A rung missed by a factor. A little less than the law says: what is measured decides.
+    /// Whether a rung is all but sure to keep it.
+    fn will_keep(&self, points: f64) -> bool {
+        self.measured && points >= 1.1 * self.least
+    }
+
+    /// A rung missed by a factor.
     fn missed(&mut self, points: f64, factor: f64) {
-        const CAUTION: f64 = 0.95;
-        self.least = CAUTION * points * libm::pow(factor, 1.0 / self.power);
+        self.least = points * libm::pow(factor, 1.0 / self.power);
+        self.measured = true;
     }
 }
 
@@ -87,13 +95,14 @@ pub(crate) struct ChosenSky {
 /// The sky at all queries.
 pub(crate) fn sky(foliage: &Foliage, queries: &[Query], params: &Params, most: usize) -> ChosenSky {
     let chords = Sky::by_chords(foliage);
-    let places = of(queries, &measure::sample(queries.len()));
+    let at = measure::sample(queries.len());
+    let places = of(queries, &at);
     let (exact, pairs) = chords.counted_samples(&places);
     if places.len() < queries.len() {
         let scale = queries.len() as f64 / places.len() as f64;
         let balls = foliage.generators.len() as f64;
         let dear = pairs as f64 * scale * cost::CHORD + balls * AXES as f64 * cost::DISK;
-        if let Some(chosen) = swept_sky(foliage, queries, params, most, (&places, &exact, dear)) {
+        if let Some(chosen) = swept_sky(foliage, queries, params, most, (&at, &exact, dear)) {
             return chosen;
         }
     }
@@ -108,8 +117,9 @@ fn swept_sky(
     queries: &[Query],
     params: &Params,
     most: usize,
-    (places, exact, dear): (&[Query], &[SkySample], f64),
+    (at, exact, dear): (&[usize], &[SkySample], f64),
 ) -> Option<ChosenSky> {
+    let places = &of(queries, at);
     let mut climb = Climb::new(2.0, 1.5, params.quality());
     for points in RUNGS {
         let lattice = Lattice::around(foliage.own(), foliage.radius, points, most);
@@ -122,10 +132,13 @@ fn swept_sky(
         }
         if climb.may_keep(points) {
             let sky = Sky::on_lattices(foliage, points, most);
-            let errors = measure::sky(&sky.samples(places), exact, params);
+            // The sweeps cost most: where the promise is all but certain, they are done once, for all places.
+            let all = climb.will_keep(points).then(|| sky.samples(queries));
+            let sampled = all.as_ref().map_or_else(|| sky.samples(places), |all| of(all, at));
+            let errors = measure::sky(&sampled, exact, params);
             let factor = measure::worst(&errors) / params.quality();
             if factor <= 1.0 {
-                return Some(ChosenSky { samples: sky.samples(queries), errors, points });
+                return Some(ChosenSky { samples: all.unwrap_or_else(|| sky.samples(queries)), errors, points });
             }
             climb.missed(points, factor);
         }
@@ -210,6 +223,6 @@ fn splined_field(
     None
 }
 
-fn of(queries: &[Query], at: &[usize]) -> Vec<Query> {
-    at.iter().map(|&at| queries[at]).collect()
+fn of<T: Copy>(all: &[T], at: &[usize]) -> Vec<T> {
+    at.iter().map(|&at| all[at]).collect()
 }

@@ -198,10 +198,14 @@ fn add_run(
     for base in run.clone().step_by(LANES) {
         let lanes = base..base + LANES;
         let (x, y) = (&shafts.across[0][lanes.clone()], &shafts.across[1][lanes.clone()]);
-        let (along, weight) = (&shafts.along[lanes.clone()], &shafts.weight[lanes.clone()]);
-        let group = &shafts.group[lanes];
-        let left = (run.end - base).min(LANES) as u32;
+        let (along, group) = (&shafts.along[lanes.clone()], &shafts.group[lanes.clone()]);
+        let mut weights = [0.0f32; LANES];
+        weights.copy_from_slice(&shafts.weight[lanes]);
+        weights[(run.end - base).min(LANES)..].fill(0.0);
         for lane in 0..LANES {
+            // A mask of bits, so that the loop has no branch and stays 32 bits wide.
+            let counts = 0u32.wrapping_sub(u32::from(group[lane] != skip));
+            let weight = f32::from_bits(weights[lane].to_bits() & counts);
             let (dx, dy, from) = (place[0] - x[lane], place[1] - y[lane], place[2] - along[lane]);
             let inside = 1.0 - (dx * dx + dy * dy);
             let inside = if inside > 0.0 { inside } else { 0.0 };
@@ -210,8 +214,6 @@ fn add_run(
             let from = if from < -half { -half } else { from };
             // The integral of (1 - r^2)^2 along the chord, from its middle on.
             let (squared, square) = (inside * inside, from * from);
-            let counts = (lane as u32) < left && group[lane] != skip;
-            let weight = if counts { weight[lane] } else { 0.0 };
             whole[lane] += weight * (half * squared * (8.0 / 15.0));
             part[lane] += weight * (from * (squared + square * (square * 0.2 - inside * (2.0 / 3.0))));
         }

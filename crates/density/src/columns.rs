@@ -1,8 +1,9 @@
 //! Columns of a lattice along an axis of the sky: optical depths toward both its ends, with no interpolation
 //! from plane to plane, which would blur them.
 
-use crate::lattice::Lattice;
-use glam::{DVec2, DVec3, USizeVec3, Vec2, Vec3};
+use crate::lattice::{Lattice, Spot};
+use glam::{DVec2, DVec3, IVec3, USizeVec3, Vec2, Vec3};
+use std::ops::Range;
 
 /// Columns along one direction: they run through the planes across the axis nearest to it.
 #[derive(Clone, Debug)]
@@ -58,29 +59,28 @@ impl<'a> Columns<'a> {
         let [width, height] = self.width;
         let half = (self.lattice.step / self.toward[self.axis].abs() / 2.0) as f32;
         let mut depths = vec![0.0f32; planes * width * height];
-        let (mut here, mut before) = (vec![0.0f32; width * height], vec![0.0f32; width * height]);
+        let (mut here, mut before) = (Slice::new(self.width), Slice::new(self.width));
         for n in 0..planes {
             let k = if self.up { planes - 1 - n } else { n };
             std::mem::swap(&mut here, &mut before);
             self.slice(density, k, &mut here);
-            let (from, to) = (self.plane(if self.up { k + 1 } else { k.wrapping_sub(1) }), self.plane(k));
             if n > 0 {
-                depths.copy_within(from, to.start);
-                let lanes = depths[to].iter_mut().zip(here.iter().zip(&before));
-                lanes.for_each(|(depth, (a, b))| *depth += half * (a + b));
+                let (from, to) = neighbors(&mut depths, k, width * height, self.up);
+                to.copy_from_slice(from);
+                let [columns, rows] = [0, 1].map(|axis| union(&here.filled[axis], &before.filled[axis]));
+                for row in rows {
+                    let line = row * width + columns.start..row * width + columns.end;
+                    let lanes = to[line.clone()].iter_mut().zip(&here.values[line.clone()]).zip(&before.values[line]);
+                    lanes.for_each(|((depth, a), b)| *depth += half * (a + b));
+                }
             }
         }
         self.depths = depths;
     }
 
-    fn plane(&self, k: usize) -> std::ops::Range<usize> {
-        let points = self.width[0] * self.width[1];
-        k.wrapping_mul(points)..k.wrapping_add(1).wrapping_mul(points)
-    }
-
     /// Density where the columns meet plane `k`, bilinear; nothing outside (the outermost points are empty).
-    fn slice(&self, density: &[f32], k: usize, plane: &mut [f32]) {
-        plane.fill(0.0);
+    fn slice(&self, density: &[f32], k: usize, plane: &mut Slice) {
+        plane.clear();
         let size = self.lattice.size;
         let strides = [1, size.x, size.x * size.y];
         let [b, c] = self.across;
@@ -94,10 +94,11 @@ impl<'a> Columns<'a> {
         let weights =
             [(1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y];
         let columns_i = range(whole.x, self.width[0], size[b]);
-        for j in range(whole.y, self.width[1], size[c]) {
+        plane.filled = [columns_i.clone(), range(whole.y, self.width[1], size[c])];
+        for j in plane.filled[1].clone() {
             let row = k * strides[self.axis] + (j as f64 + whole.y) as usize * stride_c;
             let first = row + (columns_i.start as f64 + whole.x) as usize * stride_b;
-            let line = &mut plane[j * self.width[0]..][columns_i.clone()];
+            let line = &mut plane.values[j * self.width[0]..][columns_i.clone()];
             for (n, value) in line.iter_mut().enumerate() {
                 let at = first + n * stride_b;
                 *value = (weights[0] * density[at] + weights[1] * density[at + stride_b])
@@ -106,17 +107,17 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Depths toward the direction and away from it at a place (radii), interpolated along its column and
+    /// Depths toward the direction and away from it at a place, interpolated along its column and
     /// between columns; outside, those of the places where the rays enter, and 0 where they miss.
-    pub fn depths(&self, place: DVec3) -> [f32; 2] {
-        let (low, step) = (self.lattice.low, self.lattice.step);
-        let high = low + step * (self.lattice.size - 1).as_dvec3();
-        let inside = |place: DVec3| self.interpolate(((place - low) / step).as_vec3());
-        if place.cmpge(low).all() && place.cmple(high).all() {
-            return inside(place);
-        }
-        let entry = |toward: DVec3| entry(low, high, place, toward);
-        [entry(self.toward).map_or(0.0, |p| inside(p)[0]), entry(-self.toward).map_or(0.0, |p| inside(p)[1])]
+    pub fn depths(&self, spot: &Spot) -> [f32; 2] {
+        spot.steps.map_or_else(|| self.from_outside(spot.place), |steps| self.interpolate(steps))
+    }
+
+    fn from_outside(&self, place: DVec3) -> [f32; 2] {
+        let low = self.lattice.low;
+        let high = low + self.lattice.step * (self.lattice.size - 1).as_dvec3();
+        let depths = |toward: DVec3| entry(low, high, place, toward).map(|p| self.interpolate(self.lattice.steps(p)));
+        [depths(self.toward).map_or(0.0, |d| d[0]), depths(-self.toward).map_or(0.0, |d| d[1])]
     }
 
     /// Linear along the column and across; `place` in steps from the lattice's first point, inside it.
@@ -126,8 +127,9 @@ impl<'a> Columns<'a> {
         let column = Vec2::new(place[b], place[c]) - self.slope.as_vec2() * along - self.low.as_vec2();
         let steps = Vec3::new(column.x, column.y, along);
         let size = USizeVec3::new(self.width[0], self.width[1], self.lattice.size[self.axis]);
-        let cell = steps.floor().clamp(Vec3::ZERO, (size - 2).as_vec3());
-        let (part, first) = (steps - cell, cell.as_usizevec3());
+        // Truncated, not rounded down: below 0 both end at the first cell.
+        let first = steps.as_ivec3().clamp(IVec3::ZERO, (size - 2).as_ivec3());
+        let (part, first) = (steps - first.as_vec3(), first.as_usizevec3());
         let (row, plane) = (size.x, size.x * size.y);
         let mix = |a: f32, b: f32, part: f32| a + (b - a) * part;
         let face = |at: usize| {
@@ -139,6 +141,41 @@ impl<'a> Columns<'a> {
         // What is not ahead is behind: the whole column stands in the plane where the sweep ended.
         let whole = face(at + if self.up { 0 } else { (size.z - 1) * plane });
         [ahead, (whole - ahead).max(0.0)]
+    }
+}
+
+/// Density where the columns meet a plane: nothing but in a rectangle of it.
+struct Slice {
+    width: usize,
+    values: Vec<f32>,
+    filled: [Range<usize>; 2],
+}
+
+impl Slice {
+    fn new(width: [usize; 2]) -> Slice {
+        Slice { width: width[0], values: vec![0.0; width[0] * width[1]], filled: [0..0, 0..0] }
+    }
+
+    fn clear(&mut self) {
+        let [columns, rows] = &self.filled;
+        let rows = self.values.chunks_exact_mut(self.width).take(rows.end).skip(rows.start);
+        rows.for_each(|row| row[columns.clone()].fill(0.0));
+    }
+}
+
+/// What holds both ranges.
+fn union(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
+    a.start.min(b.start)..a.end.max(b.end)
+}
+
+/// The plane before plane `k`, of `points` each, and that plane itself: the one above where the sweep runs down.
+fn neighbors(depths: &mut [f32], k: usize, points: usize, down: bool) -> (&[f32], &mut [f32]) {
+    if down {
+        let (to, from) = depths[k * points..].split_at_mut(points);
+        (&from[..points], to)
+    } else {
+        let (from, to) = depths.split_at_mut(k * points);
+        (&from[(k - 1) * points..], &mut to[..points])
     }
 }
 

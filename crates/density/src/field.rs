@@ -5,7 +5,7 @@ use crate::generators::Generator;
 use crate::grid::{Grid, Near};
 use crate::kernel::{Batch, Isa, LANES, Path, Sums};
 use crate::moments::Moments;
-use foliar_numerics::{MORTON_BITS, morton3};
+use crate::order;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -113,17 +113,8 @@ impl Field {
     /// Queries that are summed ball by ball, in Morton order, ties by index.
     fn order(&self, queries: &[Query]) -> Vec<(u64, u32)> {
         let scale = f64::from(1u32 << FINE_BITS) * self.inverse;
-        let mut order: Vec<(u64, u32)> = queries
-            .par_iter()
-            .enumerate()
-            .filter(|(_, query)| !self.moments.as_ref().is_some_and(|moments| moments.reach(query.position)))
-            .map(|(index, query)| {
-                let [x, y, z] = (query.position * scale).to_array().map(|v| (v.floor() as i64 + MIDDLE) as u32);
-                (morton3(x, y, z), index as u32)
-            })
-            .collect();
-        order.par_sort_unstable();
-        order
+        let summed = |place: DVec3| !self.moments.as_ref().is_some_and(|moments| moments.reach(place));
+        order::in_space(queries.len(), |at| Some(queries[at].position).filter(|p| summed(*p)).map(|p| p * scale))
     }
 
     /// Evaluates the queries of one block, a cube of one radius.
@@ -154,7 +145,6 @@ impl Field {
 }
 
 /// The center's place in Morton codes.
-const MIDDLE: i64 = 1 << (MORTON_BITS - 1);
 
 fn block_of(code: u64) -> u64 {
     code >> (3 * FINE_BITS)

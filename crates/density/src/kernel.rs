@@ -153,12 +153,17 @@ fn within_reach<'a>(run: &Run, near: &'a Near, bounds: &[[f64; 2]; 3]) -> &'a [B
 fn add_run<const GRADIENT: bool>(balls: &[Ball], batch: &Batch, total: &mut Sums) {
     let mut run = Sums::default();
     for ball in balls {
+        // Whole arrays, one operation each, and a mask of bits: what compilers turn into vectors without being asked.
+        let mut weights = [0.0f32; LANES];
+        for lane in 0..LANES {
+            let counts = 0u32.wrapping_sub(u32::from(batch.skip[lane] != ball.group));
+            weights[lane] = f32::from_bits(ball.weight.to_bits() & counts);
+        }
         for lane in 0..LANES {
             let (dx, dy, dz) = (batch.x[lane] - ball.x, batch.y[lane] - ball.y, batch.z[lane] - ball.z);
             let inside = 1.0 - (dx * dx + dy * dy + dz * dz);
             let inside = if inside > 0.0 { inside } else { 0.0 };
-            let weight = if batch.skip[lane] == ball.group { 0.0 } else { ball.weight };
-            let slope = weight * inside;
+            let slope = weights[lane] * inside;
             run.density[lane] += slope * inside;
             if GRADIENT {
                 run.gradient[0][lane] += slope * dx;

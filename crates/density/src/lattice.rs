@@ -15,6 +15,13 @@ pub(crate) struct Lattice {
     pub(crate) size: USizeVec3,
 }
 
+/// A place, in radii, and where it lies in a lattice, in steps from its first point; `None` outside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    pub place: DVec3,
+    pub steps: Option<Vec3>,
+}
+
 /// Share of the second differences that reading the lattice along columns adds: slices, trapezoids and lookups
 /// are linear twice over along each axis, and a linear interpolation adds a twelfth.
 const SHARPEN: f32 = 1.0 / 6.0;
@@ -46,6 +53,18 @@ impl Lattice {
     /// Whether it had to be coarser than asked for.
     pub fn is_coarser_than(&self, points_per_radius: f64) -> bool {
         self.step > 1.0 / points_per_radius
+    }
+
+    /// Where a place (radii) is.
+    pub fn spot(&self, place: DVec3) -> Spot {
+        let high = self.low + self.step * (self.size - 1).as_dvec3();
+        let inside = place.cmpge(self.low).all() && place.cmple(high).all();
+        Spot { place, steps: inside.then(|| self.steps(place)) }
+    }
+
+    /// Steps from the first point.
+    pub fn steps(&self, place: DVec3) -> Vec3 {
+        ((place - self.low) / self.step).as_vec3()
     }
 
     /// Number of points.

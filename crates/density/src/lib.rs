@@ -22,6 +22,7 @@ mod measure;
 mod medium;
 mod moments;
 mod normals;
+mod order;
 mod output;
 mod params;
 pub mod reference;
@@ -63,7 +64,7 @@ impl Baker for Density {
     }
 
     fn version(&self) -> u32 {
-        4
+        5
     }
 
     fn about(&self) -> &'static str {

@@ -4,6 +4,7 @@
 //! integral is 32 pi / 105 radii cubed, a leaf's extinction is A / 2 times that ball over that integral.
 
 use crate::directions::DIRECTIONS;
+use foliar_numerics::exp_of_negatives;
 use glam::DVec3;
 
 /// Integral of (1 - r^2)^2 over the unit ball.
@@ -51,9 +52,10 @@ pub struct SkySample {
 pub fn see(depths: &[f64; DIRECTIONS], directions: &[DVec3; DIRECTIONS], outward: DVec3) -> SkySample {
     let least = depths.iter().copied().fold(f64::INFINITY, f64::min);
     let (mut sum, mut mean) = (0.0, DVec3::ZERO);
-    for (depth, direction) in depths.iter().zip(directions) {
-        // Relative to the clearest direction nothing underflows, however deep inside.
-        let weight = libm::exp(least - depth);
+    // Relative to the clearest direction nothing underflows, however deep inside.
+    let mut weights = depths.map(|depth| least - depth);
+    exp_of_negatives(&mut weights);
+    for (weight, direction) in weights.into_iter().zip(directions) {
         sum += weight;
         mean += *direction * weight;
     }

@@ -11,13 +11,18 @@ use crate::field::Query;
 use crate::generators::{Foliage, Generator};
 use crate::groups::Groups;
 use crate::kernel::Isa;
-use crate::lattice::Lattice;
+use crate::lattice::{Lattice, Spot};
 use crate::medium::{SkySample, chords as both_chords, extinction, see};
+use crate::order;
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// Lattice points that may be swept at once, 4 bytes each.
 const POINTS_AT_ONCE: usize = 1 << 22;
+/// The integral of (1 - r^2)^2 from the middle of a ball of radius 1 outward.
+const CHORD_FROM_MIDDLE: f64 = 8.0 / 15.0;
+/// Cells by which places are ordered: about those of a lattice.
+const CELLS_PER_RADIUS: f64 = 4.0;
 
 /// A crown and its neighbors as absorbing media, ready to be asked.
 #[derive(Debug)]
@@ -70,8 +75,12 @@ impl<'a> Sky<'a> {
     /// The same, and how many pairs of ball and query were looked at for chords.
     pub(crate) fn counted_samples(&self, queries: &[Query]) -> (Vec<SkySample>, u64) {
         let (axes, directions) = (sky_axes(), sky_directions());
+        // Neighbors in space read the same part of a lattice: each place's answer is its own, whatever the order.
+        let cells = CELLS_PER_RADIUS / self.foliage.radius;
+        let order = order::in_space(queries.len(), |at| Some(queries[at].position * cells));
+        let queries: Vec<Query> = order.par_iter().map(|&(_, at)| queries[at as usize]).collect();
         let scale = extinction(self.foliage.mean_area, self.foliage.radius);
-        let depths: Vec<chords::Depths> = self.media.iter().map(|m| m.depths(self, queries, &axes)).collect();
+        let depths: Vec<chords::Depths> = self.media.iter().map(|m| m.depths(self, &queries, &axes)).collect();
         let sample = |(index, query): (usize, &Query)| {
             let mut sums = [0.0f64; DIRECTIONS];
             for medium in &depths {
@@ -80,9 +89,12 @@ impl<'a> Sky<'a> {
                     sums[axis + AXES] += scale * f64::from(depths[index][1]);
                 }
             }
-            see(&sums, &directions, query.position)
+            (order[index].1, see(&sums, &directions, query.position))
         };
-        (queries.par_iter().enumerate().map(sample).collect(), depths.iter().map(|depths| depths.pairs).sum())
+        let mut samples: Vec<(u32, SkySample)> = queries.par_iter().enumerate().map(sample).collect();
+        samples.par_sort_unstable_by_key(|sample| sample.0);
+        let samples = samples.into_iter().map(|sample| sample.1).collect();
+        (samples, depths.iter().map(|depths| depths.pairs).sum())
     }
 }
 
@@ -94,12 +106,14 @@ impl Medium<'_> {
             return chords::depths(self.balls, radius, queries, axes, sky.isa);
         };
         let own: Vec<&[Generator]> = self.groups.of_each(queries);
+        let per_radius = 1.0 / radius;
+        let spots: Vec<Spot> = queries.par_iter().map(|query| lattice.spot(query.position * per_radius)).collect();
         let along = |toward: &DVec3| {
             let columns = Columns::new(lattice, density, *toward);
-            let depths = |(query, own): (&Query, &&[Generator])| {
-                less_own(columns.depths(query.position / radius), query, own, radius, *toward)
+            let depths = |(spot, own): (&Spot, &&[Generator])| {
+                less_own(columns.depths(spot), spot.place, own, per_radius, *toward)
             };
-            queries.par_iter().zip(&own).with_min_len(1024).map(depths).collect()
+            spots.par_iter().zip(&own).with_min_len(1024).map(depths).collect()
         };
         let at_once = (POINTS_AT_ONCE as f64 * AXES as f64 / swept(lattice)) as usize;
         let at_once = at_once.clamp(1, AXES);
@@ -118,11 +132,13 @@ pub(crate) fn swept(lattice: &Lattice) -> f64 {
     sky_axes().into_iter().map(|axis| Columns::points(lattice, axis)).sum()
 }
 
-/// Depths less the chords of a query's own balls.
-fn less_own(depths: [f32; 2], query: &Query, own: &[Generator], radius: f64, toward: DVec3) -> [f32; 2] {
+/// Depths less the chords of a place's own balls; the place in radii.
+fn less_own(depths: [f32; 2], place: DVec3, own: &[Generator], per_radius: f64, toward: DVec3) -> [f32; 2] {
     let mut depths = depths.map(f64::from);
     for ball in own {
-        let chords = both_chords((query.position - ball.position) / radius, toward);
+        let from = place - ball.position * per_radius;
+        // Mostly a leaf is asked about in its own middle.
+        let chords = if from == DVec3::ZERO { [CHORD_FROM_MIDDLE; 2] } else { both_chords(from, toward) };
         depths = [0, 1].map(|end| depths[end] - f64::from(ball.weight) * chords[end]);
     }
     depths.map(|depth| depth.max(0.0) as f32)

@@ -2,6 +2,7 @@
 
 mod directions;
 mod error_stats;
+mod exponential;
 mod morton;
 mod quadrature;
 mod srgb;
@@ -9,6 +10,7 @@ mod sum;
 
 pub use directions::{fibonacci_sphere, r2_point, radical_inverse};
 pub use error_stats::{ErrorStats, spearman};
+pub use exponential::exp_of_negatives;
 pub use morton::{MORTON_BITS, morton3, morton3_inverse};
 pub use quadrature::{gauss_legendre, legendre};
 pub use srgb::{linear_of_srgb, srgb_of_linear};

@@ -3,7 +3,7 @@
 
 use super::refine::downhill;
 use super::{DensityField, Surface};
-use foliar_numerics::{MORTON_BITS, morton3};
+use crate::order;
 use foliar_space::{Closest, TriangleTree};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -17,8 +17,6 @@ pub struct Foot {
     pub normal: Vec3,
 }
 
-/// The middle of the range of Morton codes.
-const MIDDLE: i64 = 1 << (MORTON_BITS - 1);
 /// Cells within which the order of places does not matter.
 const GRAIN: f64 = 0.5;
 /// Relative margin of a bound on a distance: more than f32 rounds a squared distance.
@@ -47,12 +45,7 @@ pub fn nearest(surface: &Surface, field: &impl DensityField, places: &[DVec3]) -
 /// Closest points of all places, searched in Morton order.
 fn closest(tree: &TriangleTree, places: &[DVec3], surface: &Surface) -> Option<Vec<Closest>> {
     let scale = 1.0 / (GRAIN * surface.cell_m);
-    let code = |(index, place): (usize, &DVec3)| {
-        let [x, y, z] = ((*place - surface.origin) * scale).to_array().map(|v| (v.floor() as i64 + MIDDLE) as u32);
-        (morton3(x, y, z), index as u32)
-    };
-    let mut order: Vec<(u64, u32)> = places.par_iter().enumerate().map(code).collect();
-    order.par_sort_unstable();
+    let order = order::in_space(places.len(), |at| Some((places[at] - surface.origin) * scale));
     let task = |task: &[(u64, u32)]| feet(tree, task, places, surface.origin);
     let found: Option<Vec<Closest>> = order.par_chunks(TASK).flat_map_iter(task).collect();
     let mut sorted: Vec<(u32, Closest)> = order.iter().map(|o| o.1).zip(found?).collect();
