@@ -73,6 +73,32 @@ fn holes_are_said_and_can_fail_a_pipeline() {
     assert!(here.join("maps.exr").exists());
 }
 
+/// A face turned over, and a leaf that lies over itself.
+#[test]
+fn turned_faces_and_folds_are_said() {
+    let here = folder();
+    let here = here.path();
+    leaf(here, &[]);
+    let whole = std::fs::read_to_string(here.join("leaf.obj")).unwrap();
+    std::fs::write(here.join("leaf.obj"), whole.replace("f 1 2 3", "f 1 3 2")).unwrap();
+    let scan = [&SCAN[..], &["-o", "maps.exr"]].concat();
+    run_in(here, LEAFSCAN, &scan).expect(0, &["SCAN-TURNED", "across 3 edges"]);
+    // The same leaf again, 3 units higher.
+    let moved = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        match words[0] {
+            "v" => format!("v {} {} {}\n", words[1], words[2], words[3].parse::<f64>().unwrap() + 3.0),
+            _ => {
+                words[1..].iter().fold("f".to_owned(), |line, i| format!("{line} {}", i.parse::<u32>().unwrap() + 8))
+                    + "\n"
+            }
+        }
+    };
+    let twice = whole.clone() + &whole.lines().map(moved).collect::<String>();
+    std::fs::write(here.join("leaf.obj"), twice).unwrap();
+    run_in(here, LEAFSCAN, &scan).expect(0, &["SCAN-FOLDED", "lies over itself"]);
+}
+
 #[test]
 fn what_is_no_leaf_is_refused_with_a_remedy() {
     let here = folder();
@@ -85,6 +111,8 @@ fn what_is_no_leaf_is_refused_with_a_remedy() {
     run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "maps.jpg"]].concat()).expect(2, &[".exr, .png or .layer"]);
     run_in(here, LEAFSCAN, &[&flat[..], &["--unwrap", "uv"]].concat()).expect(3, &["no texture coordinates"]);
     run_in(here, LEAFSCAN, &[&SCAN[..5], &["-o", "maps.exr", "--resolution", "4"]].concat()).expect(2, &["resolution"]);
+    let vast = ["-o", "maps.exr", "--resolution", "16384"];
+    run_in(here, LEAFSCAN, &[&SCAN[..5], &vast].concat()).expect(2, &["resolution", "at most 8192"]);
     assert!(!here.join("maps.exr").exists());
 }
 
@@ -105,6 +133,14 @@ fn two_height_maps_become_the_maps_of_a_leaf() {
         });
         assert!(own.len() == mesh.len() && own.iter().zip(&mesh).all(|(a, b)| (a - b).abs() < 1e-5), "{name}");
     }
+    // Pictures of whole numbers are read again with what is said beside them: a height has its black, too.
+    let said = run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "mesh.png"]].concat()).expect(0, &["--height-scale-mm"]);
+    let flags = said.stderr.lines().find(|line| line.contains("--height-offset-mm")).unwrap();
+    let number = |flag: &str| flags.split(flag).nth(1).unwrap().split_whitespace().next().unwrap().to_owned();
+    let (scale, offset) = (number("--height-scale-mm"), number("--height-offset-mm"));
+    let pictures = ["--height-front", "mesh-height-front.png", "--height-back", "mesh-height-back.png"];
+    let read = ["--texel-mm", "1", "--height-scale-mm", &scale, "--height-offset-mm", &offset, "-o", "again.exr"];
+    run_in(here, LEAFSCAN, &[&pictures[..], &read].concat()).expect(0, &["median 0.5000"]);
     // One of them is no leaf, neither is one without a size, and a mesh beside them is one too many.
     run_in(here, LEAFSCAN, &[&heights[..2], &["-o", "one.exr"]].concat()).expect(2, &["--height-back FILE"]);
     run_in(here, LEAFSCAN, &[&heights[..], &["-o", "one.exr"]].concat()).expect(2, &["texel_mm", "must be given"]);

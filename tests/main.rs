@@ -32,4 +32,5 @@ mod streams;
 mod surface;
 mod translucency;
 mod translucency_bad;
+mod translucency_forms;
 mod view;

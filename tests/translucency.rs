@@ -23,7 +23,7 @@ pub fn thickness(folder: &Path, name: &str, size: u32, bump: f64) -> PathBuf {
 }
 
 /// A normal map that leans by turns.
-fn normals(folder: &Path, name: &str, size: u32) -> PathBuf {
+pub fn normals(folder: &Path, name: &str, size: u32) -> PathBuf {
     let path = folder.join(name);
     let texel = |x: u32, y: u32| Rgb([(96 + 8 * (x % 8)) as u8, (160 - 8 * (y % 8)) as u8, 235]);
     ImageBuffer::from_fn(size, size, texel).save(&path).unwrap();
@@ -32,7 +32,7 @@ fn normals(folder: &Path, name: &str, size: u32) -> PathBuf {
 
 const FLAGS: [&str; 4] = ["--leaf-width-mm", "60", "--thickness-scale-mm", "0.4"];
 
-fn with_flags<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
+pub fn with_flags<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
     [arguments, &FLAGS].concat()
 }
 
@@ -248,6 +248,13 @@ fn photographs_are_passed_on_and_embedded_maps_stand_alone() {
     assert!(binary.windows(bytes.len()).any(|window| window == bytes), "the photograph as it is");
     assert_eq!(json["textures"].as_array().unwrap().len(), 3, "both sides and the color");
     assert_eq!(foliage(&baked)["translucency"]["leaves"]["color"]["estimate"], false);
+    let leaf = json["materials"].as_array().unwrap().iter().find(|material| material["name"] == "leaves").unwrap();
+    let shown = &leaf["extensions"]["KHR_materials_diffuse_transmission"]["diffuseTransmissionColorTexture"];
+    let texture = &json["textures"][shown["index"].as_u64().unwrap() as usize];
+    let view = &json["images"][texture["source"].as_u64().unwrap() as usize]["bufferView"];
+    let view = &json["bufferViews"][view.as_u64().unwrap() as usize];
+    let start = view["byteOffset"].as_u64().unwrap_or(0) as usize;
+    assert!(binary[start..].starts_with(&bytes), "the color is the photograph");
     let again = run(DENSITY, &[text(&baked), "-o", text(&baked)]).expect(0, &[]);
     assert!(again.stdout.contains("written"), "{again:?}");
     verify_file(&baked).unwrap();

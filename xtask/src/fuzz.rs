@@ -7,8 +7,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Each target, and the endings of files that it starts from.
-const TARGETS: [(&str, &[&str]); 5] =
-    [("obj", &["obj"]), ("mtl", &["mtl"]), ("gltf", &["gltf", "glb"]), ("layer", &["layer"]), ("toml", &["toml"])];
+const TARGETS: [(&str, &[&str]); 6] = [
+    ("obj", &["obj"]),
+    ("mtl", &["mtl"]),
+    ("gltf", &["gltf", "glb"]),
+    ("layer", &["layer"]),
+    ("toml", &["toml"]),
+    ("map", &["png", "exr", "tif"]),
+];
 
 /// Where files to start from lie.
 const SEEDS: [&str; 4] = ["fixtures/check", "fixtures/linden", "tests/fuzz/found", "tests/fuzz/seeds"];

@@ -229,7 +229,7 @@ pub fn encode_raster_between(
 ///
 /// # Errors
 /// [`CarrierError::Input`] for a layer without maps.
-pub fn encode_maps(layer: &Layer, path: &Path) -> Result<Vec<OutputFile>, CarrierError> {
+pub fn encode_maps(layer: &Layer, path: &Path) -> Result<(Vec<OutputFile>, Vec<Finding>), CarrierError> {
     loose::encode(layer, path)
 }
 

@@ -1,15 +1,15 @@
 //! Maps of a leaf without a tree: EXR and PNG files, and a JSON that says what their numbers mean.
 
-use crate::assemble::{Encoded, encode_map, shown_of};
+use crate::assemble::{Encoded, encode_map, rounding, shown_of};
 use crate::{CarrierError, OutputFile};
 use foliar_bake::Layer;
-use foliar_schema::{CONTRACT, SheetLinks};
+use foliar_schema::{CONTRACT, Finding, SheetLinks};
 use rayon::prelude::*;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// All files, the named one last.
-pub(crate) fn encode(layer: &Layer, path: &Path) -> Result<Vec<OutputFile>, CarrierError> {
+/// All files, the named one last, and what a person should know of them.
+pub(crate) fn encode(layer: &Layer, path: &Path) -> Result<(Vec<OutputFile>, Vec<Finding>), CarrierError> {
     let exact = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
     let half = layer.record.resolved.get("exr") != Some(&json!("float"));
     let rasters = layer.rasters.iter().map(|(name, raster)| (name.as_str(), raster)).collect();
@@ -35,6 +35,7 @@ pub(crate) fn encode(layer: &Layer, path: &Path) -> Result<Vec<OutputFile>, Carr
         }
         links.maps.insert(name.to_owned(), link);
     }
+    let findings = rounding(&links).into_iter().collect();
     let about = json!({ "contract": CONTRACT, "record": layer.record, "translucency": links });
     files.push(OutputFile { path: path.with_extension("json"), bytes: format!("{about:#}\n").into_bytes() });
     // The named file is the commit, whatever the case of its ending.
@@ -45,7 +46,7 @@ pub(crate) fn encode(layer: &Layer, path: &Path) -> Result<Vec<OutputFile>, Carr
         file.path = path.to_path_buf();
         files.push(file);
     }
-    Ok(files)
+    Ok((files, findings))
 }
 
 fn same_kind(file: &OutputFile, path: &Path) -> bool {

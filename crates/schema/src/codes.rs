@@ -85,7 +85,9 @@ codes! {
     MAP_BITS = "MAP-BITS", Warning, "A map has so few bits that its steps show: give 16 bits or floats.";
     MAP_COLOR = "MAP-COLOR", Warning, "A map of numbers is tagged as colors, or was stored with loss: its numbers were taken as they are; save it linear, as PNG without profile, TIFF or EXR.";
     MAP_ESTIMATED = "MAP-ESTIMATED", Note, "A map was estimated from a photograph, not measured: take it as an artist's guess.";
+    MAP_FITTED = "MAP-FITTED", Note, "Absorption and scattering of a leaf were found from its measured reflectance and transmittance: these are they.";
     MAP_NORMALS = "MAP-NORMALS", Warning, "Normals of no length were taken for straight ones: is it a normal map?";
+    MAP_ROUNDED = "MAP-ROUNDED", Note, "Maps in a glTF have 8 bits: this is what that costs; the EXR beside the file has the numbers themselves.";
     MAP_STEEP = "MAP-STEEP", Note, "Thickness rises steeper than 1:1: light leaves through the wall there, which the model does not know.";
     MAP_THIN = "MAP-THIN", Note, "Texels of a leaf that are thinner than anything grows were taken for the least thickness.";
     MAP_UNUSED = "MAP-UNUSED", Warning, "A map was given for a material that no leaf has: correct the name, or take it out.";

@@ -24,6 +24,8 @@ pub enum Kind {
     Layer,
     /// A configuration file.
     Toml,
+    /// A picture that holds numbers: PNG, EXR, TIFF, by its bytes.
+    Map,
 }
 
 impl Kind {
@@ -35,6 +37,7 @@ impl Kind {
             "gltf" | "glb" => Some(Kind::Gltf),
             "layer" => Some(Kind::Layer),
             "toml" => Some(Kind::Toml),
+            "png" | "exr" | "tif" => Some(Kind::Map),
             _ => None,
         }
     }
@@ -48,6 +51,7 @@ pub fn feed(kind: Kind, bytes: &[u8]) {
         Kind::Mtl => _ = foliar_carrier::obj::parse_mtl(bytes, "fuzz.mtl"),
         Kind::Layer => layer(bytes),
         Kind::Toml => configuration(bytes),
+        Kind::Map => map(bytes),
     }
 }
 
@@ -96,6 +100,32 @@ fn layer(bytes: &[u8]) {
     if let Ok(bytes) = layer_to_bytes(&layer) {
         let again = layer_from_bytes(&bytes, "fuzz.layer").map(|again| again.content_hash());
         assert_eq!(again.ok(), Some(layer.content_hash()), "a layer that was read is written and read again");
+    }
+}
+
+/// Read as numbers, and where it is small baked: as thickness with a relief, as a photograph, as two heights.
+fn map(bytes: &[u8]) {
+    const MOST_NUMBERS: usize = 1 << 12;
+    let Ok(read) = foliar_carrier::images::read_map(bytes, "fuzz") else { return };
+    if read.map.raster.data.len() > MOST_NUMBERS {
+        return;
+    }
+    let (leaf, scan) = (names::ROOM_TRANSLUCENCY, "leafscan");
+    let [thickness, relief] = [names::MAP_THICKNESS, names::MAP_HEIGHT_BACK];
+    let bakes: [(&str, &[&str], &str); 3] = [
+        (leaf, &[thickness, relief, names::MAP_NORMAL_FRONT], r#"{"thickness_scale_mm": 0.4, "height_scale_mm": 0.1}"#),
+        (leaf, &[thickness], r#"{"thickness_from": "photo"}"#),
+        (scan, &[relief, names::MAP_HEIGHT_FRONT], r#"{"height_scale_mm": 0.1}"#),
+    ];
+    for (room, shown, given) in bakes {
+        let maps: Maps = shown.iter().map(|name| ((*name).to_owned(), read.map.clone())).collect();
+        let Ok(settings) = serde_json::from_str::<serde_json::Map<_, _>>(given) else { continue };
+        let given = settings.into_iter().chain([("texel_mm".to_owned(), 0.1.into())]).collect();
+        let inputs = Inputs { plant: None, maps: &maps, neighbors: &[] };
+        let request = Request { given, ..Request::default() };
+        for baker in BAKERS.iter().filter(|baker| baker.room() == room) {
+            _ = run(*baker, &inputs, &request, &Quiet);
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use foliar_schema::{
 };
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
-pub(crate) use textures::{Encoded, encode_map, shown_of};
+pub(crate) use textures::{Encoded, encode_map, rounding, shown_of};
 
 /// Program and version that assembled the file.
 const GENERATOR: &str = concat!("foliar ", env!("CARGO_PKG_VERSION"));

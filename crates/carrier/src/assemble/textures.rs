@@ -91,11 +91,27 @@ fn write_sheet(
         }
         links.maps.insert(name.to_owned(), link);
     }
+    builder.findings.extend(rounding(&links).map(|finding| finding.at(format!("map {sheet}"))));
     links.color = color(builder, layer, sheet, &facts, &users)?;
     if let Some(texture) = shown_texture {
         show(builder, &links, &users, texture, &facts)?;
     }
     Ok(links)
+}
+
+/// What 8 bits cost the worst of the maps that have them.
+pub(crate) fn rounding(links: &SheetLinks) -> Option<Finding> {
+    let stored = links.maps.iter().filter(|(_, link)| link.texture.is_some());
+    let (name, link) = stored.max_by(|a, b| a.1.rms_error.total_cmp(&b.1.rms_error))?;
+    let share = link.rms_error / link.mean_scale.max(f64::MIN_POSITIVE);
+    let message = format!(
+        "{name} in 8 bits is off by {:.2e} of the light that falls on the leaf, rms, and {:.2e} at most: {:.2} % of the \
+         brightest mean transmission",
+        link.rms_error,
+        link.max_error,
+        100.0 * share
+    );
+    Some(Finding::new(&code::MAP_ROUNDED, message))
 }
 
 /// Both forms of one map, side by side: PNG where asked for, EXR where said whether of half floats.

@@ -12,8 +12,11 @@ use crate::progress::Bar;
 use crate::runner::{self, Product};
 use foliar_bake::{Baker, Inputs, Layer, Request};
 use foliar_carrier::OutputFile;
-use foliar_schema::names;
+use foliar_schema::{Finding, names};
 use std::path::{Path, PathBuf};
+
+/// Files, and what a person should know of them.
+pub(super) type Encoded = (Vec<OutputFile>, Vec<Finding>);
 
 /// What differs from program to program where maps are all that is given.
 pub(super) struct OnMaps<'a> {
@@ -22,7 +25,7 @@ pub(super) struct OnMaps<'a> {
     /// What else one may have meant.
     pub otherwise: &'a str,
     /// Files of what was baked.
-    pub encode: fn(&Layer, &Path) -> Result<Vec<OutputFile>, Failure>,
+    pub encode: fn(&Layer, &Path) -> Result<Encoded, Failure>,
     /// What is said of them.
     pub words: fn(&Layer, &Path) -> Vec<String>,
 }
@@ -83,7 +86,8 @@ pub(super) fn bake(
         report.set("facts", layer.record.facts.clone());
         console.log(&report.lap(room));
         (on_maps.words)(&layer, output).iter().for_each(|line| console.note(line));
-        let files = (on_maps.encode)(&layer, output)?;
+        let (files, findings) = (on_maps.encode)(&layer, output)?;
+        report.find(findings);
         console.log(&report.lap("encode"));
         Ok(Product::Files(files))
     })
@@ -108,14 +112,14 @@ fn output(options: &Options, room: &str) -> Result<PathBuf, Failure> {
 }
 
 /// Files of the maps; standard output takes a PNG.
-fn encode(layer: &Layer, output: &Path) -> Result<Vec<OutputFile>, Failure> {
+fn encode(layer: &Layer, output: &Path) -> Result<Encoded, Failure> {
     if outputs::is_layer(output) {
-        return outputs::encode_layer(layer, output);
+        return Ok((outputs::encode_layer(layer, output)?, Vec::new()));
     }
     if !is_dash(output) {
         return Ok(foliar_carrier::encode_maps(layer, output)?);
     }
-    let mut files = foliar_carrier::encode_maps(layer, Path::new("standard-output.png"))?;
+    let (mut files, findings) = foliar_carrier::encode_maps(layer, Path::new("standard-output.png"))?;
     let shown = files.pop().map(|file| OutputFile { path: output.to_path_buf(), ..file });
-    Ok(shown.into_iter().collect())
+    Ok((shown.into_iter().collect(), findings))
 }

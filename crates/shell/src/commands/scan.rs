@@ -1,7 +1,7 @@
 //! `foliar-leafscan`, and every baker of a mesh that is no tree: maps for a library, one file per map.
 
 use super::Call;
-use super::alone::OnMaps;
+use super::alone::{Encoded, OnMaps};
 use crate::Failure;
 use crate::config::Settings;
 use crate::flags::Direct;
@@ -52,7 +52,7 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
         console.log(&report.lap(baker.room()));
         report.set("facts", Value::Object(layer.record.facts.clone()));
         words(&layer, &output).iter().for_each(|line| console.note(line));
-        Ok(Product::Files(encode(&layer, &output)?))
+        Ok(Product::Files(encode(&layer, &output)?.0))
     })
 }
 
@@ -85,9 +85,9 @@ fn bare(base: Base) -> Result<Plant, foliar_plant::PlantError> {
 
 /// Thickness at the path itself, every other map beside it, and a JSON that says what their numbers mean; the path is the
 /// last: it is the commit.
-fn encode(layer: &Layer, output: &Path) -> Result<Vec<OutputFile>, Failure> {
+fn encode(layer: &Layer, output: &Path) -> Result<Encoded, Failure> {
     if outputs::is_layer(output) {
-        return outputs::encode_layer(layer, output);
+        return Ok((outputs::encode_layer(layer, output)?, Vec::new()));
     }
     let file = |(name, raster): (&String, &foliar_bake::FloatRaster)| {
         let path = place(name, output);
@@ -99,7 +99,7 @@ fn encode(layer: &Layer, output: &Path) -> Result<Vec<OutputFile>, Failure> {
     let about = json!({ "record": layer.record });
     files.push(OutputFile { path: output.with_extension("json"), bytes: outputs::pretty(&about).into_bytes() });
     files.extend(commit.into_iter().map(file).collect::<Result<Vec<_>, Failure>>()?);
-    Ok(files)
+    Ok((files, Vec::new()))
 }
 
 /// Where a map goes: `leaf.exr`, `leaf-height-front.exr`.
@@ -137,6 +137,14 @@ fn words(layer: &Layer, output: &Path) -> Vec<String> {
             Some(format!("{}: black is {black:.6}, white {white:.6}", place(name, output).display()))
         };
         lines.extend(layer.rasters.keys().filter_map(range));
+        lines.extend(read_back(layer));
     }
     lines
+}
+
+/// How heights in pictures of whole numbers are said to who reads them.
+fn read_back(layer: &Layer) -> Option<String> {
+    let (black, white) = stored(layer, names::MAP_HEIGHT_FRONT)?;
+    let span = white - black;
+    Some(format!("heights are read again with --height-scale-mm {span:.6} and, here, --height-offset-mm {black:.6}"))
 }

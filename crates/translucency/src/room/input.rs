@@ -13,10 +13,8 @@ use serde_json::{Map, Value, json};
 
 /// A texel belongs to the leaf where its alpha reaches this.
 const COVERED: f32 = 0.5;
-/// Relative change of T over that of thickness, for a green leaf of .2 mm at 510 nm: what a step of a map costs.
-const CONTRAST: f64 = 2.87;
-/// Share of the median thickness beyond which a step is worth a warning.
-const COARSE_STEP: f64 = 0.002;
+/// Share of the light beyond which a step of a map is worth a warning.
+const COARSE: f64 = 0.005;
 
 /// A leaf as its maps tell it.
 #[derive(Clone, Debug, Default)]
@@ -27,12 +25,14 @@ pub struct Sheet {
     pub height: usize,
     thickness_mm: Vec<f32>,
     normals: [Vec<[f32; 3]>; 2],
-    /// Edge of a texel, mm.
-    pub texel_mm: f64,
+    /// Edges of a texel, right and down, mm.
+    pub texel_mm: [f64; 2],
     /// Least and greatest thickness.
     pub range_mm: (f64, f64),
     /// Median thickness.
     pub median_mm: f64,
+    /// What one step of a map of whole numbers is, mm.
+    step_mm: Option<f64>,
     /// Mean color that the leaf shows by day, linear, where anything says so.
     albedo: Option<[f32; 3]>,
     /// What a person should know.
@@ -79,8 +79,9 @@ impl Sheet {
                     (Some(map), None) => sheet.normals(normal, map, params),
                     (None, Some(map)) => {
                         let scale = scale_of(relief, "height_scale_mm", map, heights)?;
+                        sheet.warn_of_relief(relief, map, scale);
                         let values: Vec<f32> = channel(map).map(|h| h * scale as f32).collect();
-                        normals_from_heights(&values, width, [sheet.texel_mm; 2])
+                        normals_from_heights(&values, width, sheet.texel_mm)
                     }
                     (None, None) => Vec::new(),
                 }
@@ -108,7 +109,8 @@ impl Sheet {
         };
         (self.range_mm, self.median_mm) = (range, median);
         if params.thickness_from == ThicknessFrom::Map {
-            self.warn_of_steps(map, scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?);
+            let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
+            self.step_mm = (map.bits < 32).then(|| scale / steps(map.bits));
             self.warn_of_walls();
         }
         Ok(())
@@ -128,6 +130,11 @@ impl Sheet {
         self.thickness_mm = texels().map(texel).collect();
         let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
         let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
+        let below = texels().filter(|(_, texel)| alpha.is_none() && texel[0] < 0.0).count();
+        if below > 0 {
+            let message = format!("{below} texels hold a thickness below 0: taken for no leaf");
+            self.findings.push(finding(&code::MAP_THIN, name, message));
+        }
         if thin > 0 {
             let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
             self.findings.push(finding(&code::MAP_THIN, name, message));
@@ -167,10 +174,11 @@ impl Sheet {
     /// Where thickness rises so steeply that light leaves through the wall, which no kernel of a flat leaf knows.
     fn warn_of_walls(&mut self) {
         let at = |x: usize, y: usize| self.thickness_mm[y * self.width + x];
-        let rises = |a: f32, b: f32| a > 0.0 && b > 0.0 && f64::from((a - b).abs()) > self.texel_mm;
+        let rises = |a: f32, b: f32, edge: f64| a > 0.0 && b > 0.0 && f64::from((a - b).abs()) > edge;
+        let [right, down] = self.texel_mm;
         let wall = |x: usize, y: usize| {
-            (x + 1 < self.width && rises(at(x, y), at(x + 1, y)))
-                || (y + 1 < self.height && rises(at(x, y), at(x, y + 1)))
+            (x + 1 < self.width && rises(at(x, y), at(x + 1, y), right))
+                || (y + 1 < self.height && rises(at(x, y), at(x, y + 1), down))
         };
         let rows = 0..self.height;
         let walls: usize = rows.map(|y| (0..self.width).filter(|x| wall(*x, y)).count()).sum();
@@ -183,42 +191,77 @@ impl Sheet {
         }
     }
 
-    /// What the bits of the thickness map cost.
-    fn warn_of_steps(&mut self, map: &MapRaster, scale: f64) {
-        let step = scale / (libm::pow(2.0, f64::from(map.bits)) - 1.0);
-        if map.bits < 32 && step > COARSE_STEP * self.median_mm {
+    /// What a step of the thickness map costs, as a share of the light at its median; `through` is the transmittance of a
+    /// thickness, mm. `None` for floats.
+    pub fn cost_of_step(&self, through: impl Fn(f64) -> f64) -> Option<f64> {
+        const APART: f64 = 0.05;
+        let step = self.step_mm?;
+        let at = |share: f64| libm::log(through(share * self.median_mm));
+        Some((at(1.0 - APART) - at(1.0 + APART)) / (2.0 * APART * self.median_mm) * step)
+    }
+
+    /// The same in words, where it is worth saying.
+    pub fn warning_of_steps(&self, cost: f64) -> Option<Finding> {
+        let step = self.step_mm.filter(|_| cost > COARSE)?;
+        let message = format!(
+            "its bits make steps of {step:.5} mm, {:.1} % of the light that passes at {:.3} mm: 16 bits or floats cost \
+             nothing",
+            100.0 * cost,
+            self.median_mm
+        );
+        Some(finding(&code::MAP_BITS, names::MAP_THICKNESS, message))
+    }
+
+    /// What the steps of a height map cost.
+    fn warn_of_relief(&mut self, name: &str, map: &MapRaster, scale: f64) {
+        if map.bits < 32 {
+            // A slope is a difference over two texels.
+            let [right, down] = self.texel_mm;
+            self.warn_of_slopes(name, scale / steps(map.bits) / (2.0 * right.min(down)));
+        }
+    }
+
+    /// What steps of a normal's slope cost: of light that falls in at 45 degrees, a slope adds its own share.
+    fn warn_of_slopes(&mut self, name: &str, slope: f64) {
+        if slope > COARSE {
             let message = format!(
-                "{} bits make steps of {step:.5} mm, {:.1} % of the light that passes at {:.3} mm: 16 bits or floats cost \
-                 nothing",
-                map.bits,
-                100.0 * CONTRAST * step / self.median_mm,
-                self.median_mm
+                "its bits turn normals in steps of {:.2} degrees, {:.1} % of the light that falls in at 45 degrees: 16 bits \
+                 or floats cost nothing",
+                libm::atan(slope).to_degrees(),
+                100.0 * slope
             );
-            self.findings.push(finding(&code::MAP_BITS, names::MAP_THICKNESS, message));
+            self.findings.push(finding(&code::MAP_BITS, name, message));
         }
     }
 
     fn normals(&mut self, name: &str, map: &MapRaster, params: &Params) -> Vec<[f32; 3]> {
         let channels = map.raster.channels as usize;
-        // Whole numbers store half of n + 1; floats do so too unless any is negative.
-        let signed = map.bits == 32 && map.raster.data.iter().any(|v| *v < 0.0);
+        // Whole numbers store half of n + 1.
+        let signed = map.bits == 32 && are_signed(&map.raster.data, channels);
         let decode = |v: f32| if signed { v } else { 2.0 * v - 1.0 };
         let turn = [
             if name == names::MAP_NORMAL_BACK && params.normal_frame == NormalFrame::RightHanded { -1.0 } else { 1.0 },
             if params.normal_y == NormalY::Down { -1.0 } else { 1.0 },
         ];
+        // Black is no normal, however it is written.
+        let is_black = |values: &[f32]| values[..3].iter().all(|v| *v == 0.0);
         let decoded = |values: &[f32]| [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
         let length = |n: [f32; 3]| n.iter().map(|v| v * v).sum::<f32>().sqrt();
         let texel = |values: &[f32]| {
             let n = decoded(values);
             let length = length(n);
-            if length > f32::EPSILON { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] }
+            if length > f32::EPSILON && !is_black(values) { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] }
         };
         let texels = || map.raster.data.par_chunks_exact(channels);
         let normals = texels().map(texel).collect();
-        let none = texels().filter(|values| length(decoded(values)) <= f32::EPSILON).count();
+        if map.bits < 32 {
+            self.warn_of_slopes(name, 2.0 / steps(map.bits));
+        }
+        let is_none = |values: &[f32]| is_black(values) || length(decoded(values)) <= f32::EPSILON;
+        let leaf = |at: usize| self.thickness_mm[at] > 0.0;
+        let none = texels().enumerate().filter(|(at, values)| leaf(*at) && is_none(values)).count();
         if none > 0 {
-            let message = format!("{none} normals have no length: taken for straight ones");
+            let message = format!("{none} normals of the leaf have no length: taken for straight ones");
             self.findings.push(finding(&code::MAP_NORMALS, name, message));
         }
         normals
@@ -235,7 +278,8 @@ impl Sheet {
     /// What a record says of the whole leaf.
     pub fn facts(&self, params: &Params, maps: Map<String, Value>) -> Map<String, Value> {
         let facts = json!({
-            "texelMm": self.texel_mm,
+            "texelMm": self.texel_mm[0],
+            "texelHeightMm": self.texel_mm[1],
             "thicknessMm": { "least": self.range_mm.0, "median": self.median_mm, "greatest": self.range_mm.1 },
             "thicknessFrom": params.thickness_from,
             "normalize": params.normalize,
@@ -259,12 +303,26 @@ impl Sheet {
     }
 }
 
+/// Whether floats are normals themselves, not half of n + 1: where any is negative, or where they are nearer to unit length
+/// as they stand (a flat leaf is 0, 0, 1). Texels of nothing but 0 say nothing.
+fn are_signed(data: &[f32], channels: usize) -> bool {
+    let off = |n: [f32; 3]| f64::from((n.iter().map(|v| v * v).sum::<f32>().sqrt() - 1.0).abs());
+    let texels = data.chunks_exact(channels).map(|t| [t[0], t[1], t[2]]).filter(|n| n.iter().any(|v| *v != 0.0));
+    let sums = texels.fold([0.0; 2], |[own, half], n| [own + off(n), half + off(n.map(|v| 2.0 * v - 1.0))]);
+    data.iter().any(|v| *v < 0.0) || sums[0] <= sums[1]
+}
+
 /// Mean color of the texels that belong to the leaf.
 fn mean_color(rgba: &[[f32; 4]]) -> Option<[f32; 3]> {
     let leaf = || rgba.iter().filter(|texel| texel[3] >= COVERED);
     let count = leaf().count() as f64;
     let mean = |c: usize| (leaf().map(|texel| f64::from(texel[c])).sum::<f64>() / count) as f32;
     (count > 0.0).then(|| [mean(0), mean(1), mean(2)])
+}
+
+/// Steps between black and white.
+fn steps(bits: u32) -> f64 {
+    libm::pow(2.0, f64::from(bits)) - 1.0
 }
 
 /// First channel of a map.

@@ -31,7 +31,7 @@ impl Baker for Translucency {
     }
 
     fn version(&self) -> u32 {
-        2
+        3
     }
 
     fn about(&self) -> &'static str {
@@ -94,13 +94,15 @@ fn walk(
     let bands = sheet::recipes(&params, &sheet)?;
     let sides = params.sides.list();
     let mut maps = Map::new();
-    let mut done = 0;
+    let (mut done, mut cost) = (0, 0.0f64);
+    baked.findings.extend(sheet::fitted_tissue(&params, &bands));
     for (side, raster) in sides {
         let map = sheet.lit_side(*side);
         for band in &bands {
             progress.step(ROOM, done, (sides.len() * bands.len()) as u64);
             let recipe = band.seen_from(*side);
             let tables = Tables::new(&recipe, sheet.range_mm, sheet.median_mm);
+            cost = sheet.cost_of_step(|d| recipe.entrance(d).transmittance).unwrap_or(0.0).max(cost);
             let mut coefficients = solve(&map, &tables, &recipe);
             let facts = normalize::finish(&map, &mut coefficients, &tables, &params);
             let name = format!("{raster}{}", band.suffix);
@@ -111,6 +113,7 @@ fn walk(
             done += 1;
         }
     }
+    baked.findings.extend(sheet.warning_of_steps(cost));
     let resolved = serde_json::to_value(&params).unwrap_or_default();
     baked.resolved = resolved.as_object().cloned().unwrap_or_default();
     baked.facts = sheet.facts(&params, maps);

@@ -198,6 +198,9 @@ pub struct Params {
     /// Edge of a texel on the leaf, mm.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub texel_mm: Option<f64>,
+    /// The other edge of it, down the image, mm; nothing said: texels are square.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub texel_height_mm: Option<f64>,
     /// Thickness of the leaf where the map is 1 (white), less the offset, mm; nothing said: 1 for maps of floats, which hold
     /// millimeters. Whole numbers need it.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
@@ -283,6 +286,7 @@ impl Default for Params {
             for_material: Vec::new(),
             leaf_width_mm: None,
             texel_mm: None,
+            texel_height_mm: None,
             thickness_scale_mm: None,
             thickness_offset_mm: 0.0,
             thickness_from: ThicknessFrom::default(),
@@ -345,9 +349,10 @@ impl Params {
         Ok(params)
     }
 
-    /// Edge of a texel, mm, of a map of this width.
-    pub(super) fn texel_mm(&self, width: usize) -> f64 {
-        self.texel_mm.unwrap_or_else(|| self.leaf_width_mm.unwrap_or(f64::NAN) / width as f64)
+    /// Edges of a texel, right and down, mm, of a map of this width.
+    pub(super) fn texel_mm(&self, width: usize) -> [f64; 2] {
+        let right = self.texel_mm.unwrap_or_else(|| self.leaf_width_mm.unwrap_or(f64::NAN) / width as f64);
+        [right, self.texel_height_mm.unwrap_or(right)]
     }
 }
 

@@ -1,5 +1,6 @@
 //! Which maps are made: bands of light, tissue of each, seen from each side.
 
+use super::finding;
 use super::input::Sheet;
 use super::params::{Bands, Mirror, Params, Side, refuse};
 use crate::map::{Recipe, Tables, Tissue};
@@ -7,7 +8,7 @@ use crate::presets::Preset;
 use crate::transport::Medium;
 use crate::{Measured, fit_rt};
 use foliar_bake::BakeError;
-use foliar_schema::names;
+use foliar_schema::{Finding, code, names};
 use serde_json::{Value, json};
 
 /// Wavelengths of red, green and blue, and what their rasters are called after the side. Green is the one that is shown
@@ -47,7 +48,7 @@ pub fn recipes(params: &Params, sheet: &Sheet) -> Result<Vec<Band>, BakeError> {
             curve: params.curve == super::AngularCurve::Fitted,
             spreading: params.spread,
             filters: params.filters.map(|count| count as usize),
-            texel_mm: [sheet.texel_mm; 2],
+            texel_mm: sheet.texel_mm,
         };
         Ok(Band { suffix, wavelength_nm, recipe })
     };
@@ -100,6 +101,17 @@ fn numbers<const N: usize>(text: &str, place: &str, form: &str) -> Result<[f64; 
     let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     let parts = parts.and_then(|parts| <[f64; N]>::try_from(parts).ok());
     parts.ok_or_else(|| refuse(place, format!("{text:?}: must be {form}")))
+}
+
+/// What was found from a measured reflectance and transmittance.
+pub fn fitted_tissue(params: &Params, bands: &[Band]) -> Option<Finding> {
+    let (text, medium) = (params.fit_rt.as_ref()?, bands.first()?.recipe.tissues.first()?.medium);
+    let message = format!(
+        "R,T = {text} are those of absorption {:.4} and reduced scattering {:.4} per mm",
+        medium.absorption,
+        medium.reduced_scattering()
+    );
+    Some(finding(&code::MAP_FITTED, names::MAP_THICKNESS, message))
 }
 
 impl Band {

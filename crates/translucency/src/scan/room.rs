@@ -50,7 +50,7 @@ pub struct ScanParams {
     #[schemars(extend("x-map" = names::MAP_HEIGHT_BACK))]
     pub height_back: Vec<String>,
     /// Texels along the longer side of the maps.
-    #[schemars(range(min = 8, max = 16_384))]
+    #[schemars(range(min = 8, max = 8192))]
     pub resolution: u32,
     /// Where the maps lie.
     pub unwrap: Unwrap,
@@ -66,6 +66,8 @@ pub struct ScanParams {
     /// Relief of a height map from black to white, mm; nothing said: 1 for maps of floats. Whole numbers need it.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub height_scale_mm: Option<f64>,
+    /// Height where a height map is 0 (black), mm: what a scan says beside its own pictures.
+    pub height_offset_mm: f64,
     /// Thickness of the leaf where both height maps are 0, mm.
     #[schemars(range(min = 0.0))]
     pub gap_mm: f64,
@@ -82,6 +84,7 @@ impl Default for ScanParams {
             smooth_mm: 2.0,
             texel_mm: None,
             height_scale_mm: None,
+            height_offset_mm: 0.0,
             gap_mm: 0.0,
         }
     }
@@ -211,7 +214,7 @@ fn of_heights(maps: &Maps, params: &ScanParams) -> Result<Scan, BakeError> {
             None => Ok(values),
         }
     };
-    let half = (params.gap_mm / 2.0) as f32;
+    let half = (params.gap_mm / 2.0 + params.height_offset_mm) as f32;
     let [front, back] = [heights(names::MAP_HEIGHT_FRONT, front)?, heights(names::MAP_HEIGHT_BACK, back)?]
         .map(|list| list.into_iter().map(|h| h + half).collect::<Vec<f32>>());
     Ok(between_heights(&front, &back, a.width as usize, [texel_mm; 2]))

@@ -5,6 +5,7 @@ mod lights;
 mod maps;
 mod photos;
 mod room;
+mod said;
 mod scans;
 mod shaders;
 mod slabs;

@@ -10,13 +10,13 @@ use foliar_plant::sample::Sample;
 use foliar_schema::names;
 use serde_json::{Map, Value, json};
 
-fn raster(width: usize, channels: u32, data: Vec<f32>) -> MapRaster {
+pub(super) fn raster(width: usize, channels: u32, data: Vec<f32>) -> MapRaster {
     let height = (data.len() / width / channels as usize) as u32;
     MapRaster { raster: FloatRaster { width: width as u32, height, channels, data }, bits: 32 }
 }
 
 /// A leaf of `size` texels a side with normals of both sides.
-fn maps(size: usize) -> Maps {
+pub(super) fn maps(size: usize) -> Maps {
     let leaf = leaf_by_rule(size);
     let normals = |n: &[[f32; 3]]| raster(size, 3, n.as_flattened().to_vec());
     Maps::from([
@@ -26,7 +26,7 @@ fn maps(size: usize) -> Maps {
     ])
 }
 
-fn bake(maps: &Maps, given: Value) -> Result<(Layer, Vec<foliar_schema::Finding>), BakeError> {
+pub(super) fn bake(maps: &Maps, given: Value) -> Result<(Layer, Vec<foliar_schema::Finding>), BakeError> {
     let inputs = Inputs { plant: None, maps, neighbors: &[] };
     let request = Request { given: given.as_object().unwrap().clone(), ..Request::default() };
     run(&Translucency, &inputs, &request, &Quiet)
@@ -243,7 +243,7 @@ fn golden_statistics_belong_to_the_version() {
     let layer = bake(&maps(64), json!({"leaf_width_mm": 80.0})).unwrap().0;
     let facts = &layer.record.facts["maps"];
     let mean = |name: &str| facts[name]["meanTransmission"].as_f64().unwrap();
-    assert_eq!(layer.record.version, 2);
+    assert_eq!(layer.record.version, 3);
     for (name, golden) in
         [(names::RASTER_TRANSLUCENCY_FRONT, 0.064_452_6), (names::RASTER_TRANSLUCENCY_BACK, 0.064_416_5)]
     {
