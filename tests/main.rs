@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::print_stderr, reason = "a test that cannot go on fails; a skipped one says so")]
 
+mod after;
 mod bad_input;
 mod bad_places;
 mod bake;

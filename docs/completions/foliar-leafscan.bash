@@ -23,7 +23,7 @@ _foliar__leafscan() {
 
     case "${cmd}" in
         foliar__leafscan)
-            opts="-o -q -v -h -V --output --up --height-m --node --scene --expand-instances --search --texture --height-front --height-back --resolution --unwrap --face --smooth-mm --texel-mm --height-scale-mm --gap-mm --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
+            opts="-o -q -v -h -V --output --up --height-m --node --scene --expand-instances --search --texture --height-front --height-back --resolution --unwrap --face --smooth-mm --texel-mm --height-scale-mm --height-offset-mm --gap-mm --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -94,6 +94,10 @@ _foliar__leafscan() {
                     return 0
                     ;;
                 --height-scale-mm)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --height-offset-mm)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

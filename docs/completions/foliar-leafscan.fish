@@ -10,7 +10,7 @@ complete -c foliar-leafscan -l search -d 'Folders outside the asset\'s own that 
 complete -c foliar-leafscan -l texture -d 'Loose images for parts without one: PART=FILE.' -r
 complete -c foliar-leafscan -l height-front -d 'Heights of the front, outward, in place of a mesh: PNG of 16 bits, TIFF or EXR.' -r
 complete -c foliar-leafscan -l height-back -d 'Heights of the back, outward, texel by texel behind those of the front.' -r
-complete -c foliar-leafscan -l resolution -d 'Texels along the longer side of the maps. [at least 8, at most 16384, default 1024]' -r
+complete -c foliar-leafscan -l resolution -d 'Texels along the longer side of the maps. [at least 8, at most 8192, default 1024]' -r
 complete -c foliar-leafscan -l unwrap -d 'Where the maps lie. [default "plane"]' -r -f -a "plane\t'On the plane that the leaf keeps nearest to.'
 uv\t'In the mesh\'s own texture coordinates.'"
 complete -c foliar-leafscan -l face -d 'Which side is the front, where maps lie on a plane. [default "up"]' -r -f -a "up\t'The one that looks up; of a leaf that stands, the one that looks along +Z.'
@@ -18,6 +18,7 @@ down\t'The other.'"
 complete -c foliar-leafscan -l smooth-mm -d 'Over how many millimeters the leaf\'s own plane is averaged, in texture coordinates: veins stand out of it, the leaf\'s bend is part of it. [millimeters, at least 0.01, at most 100, default 2.0]' -r
 complete -c foliar-leafscan -l texel-mm -d 'Edge of a texel of two height maps, mm; a mesh says that itself. [millimeters, above 0]' -r
 complete -c foliar-leafscan -l height-scale-mm -d 'Relief of a height map from black to white, mm; nothing said: 1 for maps of floats. Whole numbers need it. [millimeters, above 0]' -r
+complete -c foliar-leafscan -l height-offset-mm -d 'Height where a height map is 0 (black), mm: what a scan says beside its own pictures. [millimeters, default 0.0]' -r
 complete -c foliar-leafscan -l gap-mm -d 'Thickness of the leaf where both height maps are 0, mm. [millimeters, at least 0, default 0.0]' -r
 complete -c foliar-leafscan -l unit -d 'Unit of length of an OBJ; nothing said means m.' -r -f -a "m\t'Meter.'
 cm\t'Centimeter.'

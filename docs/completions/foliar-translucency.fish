@@ -24,6 +24,7 @@ complete -c foliar-translucency -l material -d 'Leaf materials that maps without
 complete -c foliar-translucency -l for-material -d 'What differs for one material, `MATERIAL:KEY=VALUE` each, KEY of this section: `Needle*:leaf_width_mm=2`.' -r
 complete -c foliar-translucency -l leaf-width-mm -d 'Width of the map on the leaf, mm; this or `texel_mm` must be given: light spreads in millimeters. [millimeters, above 0]' -r
 complete -c foliar-translucency -l texel-mm -d 'Edge of a texel on the leaf, mm. [millimeters, above 0]' -r
+complete -c foliar-translucency -l texel-height-mm -d 'The other edge of it, down the image, mm; nothing said: texels are square. [millimeters, above 0]' -r
 complete -c foliar-translucency -l thickness-scale-mm -d 'Thickness of the leaf where the map is 1 (white), less the offset, mm; nothing said: 1 for maps of floats, which hold millimeters. Whole numbers need it. [millimeters, above 0]' -r
 complete -c foliar-translucency -l thickness-offset-mm -d 'Thickness of the leaf where the map is 0, mm. [millimeters, default 0.0]' -r
 complete -c foliar-translucency -l thickness-from -d 'What the thickness map is. [default "map"]' -r -f -a "map\t'Thickness, measured or painted.'

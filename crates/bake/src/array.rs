@@ -42,6 +42,25 @@ impl Array {
         }
     }
 
+    /// Numbers in all rows.
+    pub fn numbers(&self) -> usize {
+        match self {
+            Array::F32 { data, .. } => data.len(),
+            Array::I32 { data, .. } => data.len(),
+        }
+    }
+
+    /// One of them, row after row; whole ones beyond 2^24 rounded.
+    ///
+    /// # Panics
+    /// Where there is none.
+    pub fn number(&self, at: usize) -> f32 {
+        match self {
+            Array::F32 { data, .. } => data[at],
+            Array::I32 { data, .. } => data[at] as f32,
+        }
+    }
+
     /// Rows.
     pub fn rows(&self) -> usize {
         match self {

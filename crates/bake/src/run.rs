@@ -108,10 +108,10 @@ fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
     }
     for (key, array) in &baked.columns {
         let declared = COLUMNS.iter().find(|c| c.class == key.class && c.name == key.property && c.room == room);
-        let outside = |v: &f32| !declared.is_some_and(|c| (c.range[0]..=c.range[1]).contains(v));
-        let bad = array.as_f32().and_then(|data| data.iter().position(outside));
+        let outside = |v: f32| !declared.is_some_and(|c| (c.range[0]..=c.range[1]).contains(&v));
+        let bad = (0..array.numbers()).find(|at| outside(array.number(*at)));
         if declared.is_none() || bad.is_some() {
-            let (row, value) = (bad.unwrap_or(0) / array.width(), array.as_f32().zip(bad).map(|(data, at)| data[at]));
+            let (row, value) = (bad.unwrap_or(0) / array.width(), bad.map(|at| array.number(at)));
             let channel = format!("{}/{}", key.class, key.property);
             return Err(BakeError::Broken { room: room.into(), channel, row, value: value.unwrap_or(f32::NAN) });
         }

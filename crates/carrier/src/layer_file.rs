@@ -105,9 +105,9 @@ fn out_of_range(name: &str, array: &Array) -> Option<(usize, f32)> {
         None => {
             let known = name.strip_prefix("table/").and_then(|rest| rest.split_once('/'));
             let [least, most] = known.and_then(|(class, name)| column(class, name)).map_or(ANY, |c| c.range);
-            let data = array.as_f32()?;
-            let outside = |value: &f32| !(*value >= least && *value <= most);
-            data.iter().position(outside).map(|at| (at / array.width(), data[at]))
+            let outside = |value: f32| !(value >= least && value <= most);
+            let at = (0..array.numbers()).find(|at| outside(array.number(*at)))?;
+            Some((at / array.width(), array.number(at)))
         }
     }
 }
@@ -129,13 +129,14 @@ pub(crate) fn damage(layer: &Layer) -> Option<String> {
         Some(format!("{} of vertex {} is {}", key.name, at / array.width(), data[at]))
     };
     let in_column = |(key, array): (&ColumnKey, &Array)| {
-        let (column, data) = (column(&key.class, &key.property)?, array.as_f32()?);
+        let column = column(&key.class, &key.property)?;
         let row = |at: usize| format!("{}/{} of row {} is", key.class, key.property, at / array.width());
         let [least, most] = column.range;
-        let least = if column.name == "area" { 0.0 } else { least };
-        if let Some(at) = beyond(data, [least, most], 0.0) {
-            return Some(format!("{} {}", row(at), data[at]));
+        let outside = |value: f32| !(value >= least && value <= most);
+        if let Some(at) = (0..array.numbers()).find(|at| outside(array.number(*at))) {
+            return Some(format!("{} {}", row(at), array.number(at)));
         }
+        let data = array.as_f32()?;
         let length = |v: &[f32]| v.iter().map(|x| x * x).sum::<f32>().sqrt();
         let is_normal = column.name == "normal" && column.width == 3;
         let bent = data.chunks(3).position(|v| is_normal && (length(v) - 1.0).abs() > UNIT)?;
@@ -207,6 +208,10 @@ mod tests {
             assert!(damage(&layer("normal", 3, vec![wild, 0.0, 0.0])).is_some(), "{wild}");
         }
         assert!(damage(&layer("area", 1, vec![0.5, -1.0])).unwrap().contains("row 1 is -1"));
+        let key = ColumnKey { class: names::CLASS_LEAF.into(), property: "crownVolume".into() };
+        let ids = |data| Layer { columns: [(key.clone(), Array::I32 { width: 1, data })].into(), ..Layer::default() };
+        assert_eq!(damage(&ids(vec![0, 1])), None);
+        assert!(damage(&ids(vec![0, 7])).unwrap().contains("row 1 is 7"));
         let key = AttributeKey { place: Place { mesh: 0, primitive: 0 }, name: names::AMBIENT.into() };
         let ambient =
             |data| Layer { attributes: [(key.clone(), Array::F32 { width: 1, data })].into(), ..Layer::default() };

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Known {
-    /// File name without its folders, so that a checkout elsewhere matches.
+    /// The file as it was named, with `/` between folders.
     file: String,
     code: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -19,10 +19,20 @@ impl Known {
     fn of(finding: &Finding) -> Self {
         let file = finding.file.as_deref().unwrap_or_default();
         Known {
-            file: file.rsplit(['/', '\\']).next().unwrap_or(file).to_string(),
+            file: file.replace('\\', "/").trim_start_matches("./").to_owned(),
             code: finding.code.clone(),
             place: finding.place.clone().unwrap_or_default(),
         }
+    }
+}
+
+impl Known {
+    /// Whether it is the same finding, of a checkout that may lie elsewhere: one path must be the end of the other.
+    fn is(&self, other: &Known) -> bool {
+        let ends =
+            |long: &str, end: &str| long.strip_suffix(end).is_some_and(|rest| rest.is_empty() || rest.ends_with('/'));
+        let same = ends(&self.file, &other.file) || ends(&other.file, &self.file);
+        same && self.code == other.code && self.place == other.place
     }
 }
 
@@ -61,12 +71,10 @@ impl Baseline {
     pub fn filter(&self, findings: Vec<Finding>) -> (Vec<Finding>, usize) {
         let mut left = self.0.clone();
         let total = findings.len();
-        let is_new = |finding: &Finding| match left.get_mut(&Known::of(finding)) {
-            Some(times) if *times > 0 => {
-                *times -= 1;
-                false
-            }
-            _ => true,
+        let is_new = |finding: &Finding| {
+            let own = Known::of(finding);
+            let times = left.iter_mut().find(|(known, times)| **times > 0 && known.is(&own)).map(|(_, times)| times);
+            times.map(|times| *times -= 1).is_none()
         };
         let new: Vec<Finding> = findings.into_iter().filter(is_new).collect();
         let known = total - new.len();
@@ -89,8 +97,12 @@ mod tests {
         let again = Baseline::parse(&baseline.to_text()).unwrap();
         assert_eq!(again, baseline);
         let (new, known) =
-            again.filter(vec![finding("/a", "y/tree.glb"), finding("/a", "tree.glb"), finding("/b", "tree.glb")]);
+            again.filter(vec![finding("/a", "/c/x/tree.glb"), finding("/a", "tree.glb"), finding("/b", "x/tree.glb")]);
         assert_eq!((new.len(), known), (2, 1), "{new:?}");
+        // Another folder is another tree, and so is a longer name.
+        let (new, known) = again.filter(vec![finding("/a", "y/tree.glb"), finding("/a", "x/old-tree.glb")]);
+        assert_eq!((new.len(), known), (2, 0), "{new:?}");
+        assert_eq!(again.filter(vec![finding("/a", ".\\x\\tree.glb")]).1, 1);
         assert!(Baseline::parse("{}").unwrap_err().contains("--write-baseline"));
         assert_eq!(Baseline::parse(&Baseline::default().to_text()), Ok(Baseline::default()));
     }

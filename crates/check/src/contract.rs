@@ -8,6 +8,8 @@ use foliar_schema::{CHANNELS, Finding, Import, LATER_ROOMS, ROOMS, code, names};
 use glam::{DVec3, Vec3};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::io::Read;
+use std::path::Path;
 
 /// A leaf may lie this far outside the plant's box, over the box's diagonal: rounding, and centers of curled leaves.
 const OUTSIDE: f64 = 0.01;
@@ -46,17 +48,21 @@ impl Required {
 }
 
 /// Checks a master; rooms of its records.
-pub(crate) fn check(subject: &Subject, report: &mut Report) -> Vec<String> {
+pub(crate) fn check(subject: &Subject, folder: &Path, report: &mut Report) -> Vec<String> {
     let seen = subject.seen;
     let root = seen.document.json.get("extensions").and_then(|e| e.get(names::EXTENSION));
     if root.is_none() && seen.foliage().is_some() {
         let message = "the extension is gone, its mirror in asset.extras is there: a tool dropped it";
         report.say(&code::LOST_EXTENSION, "", message);
     }
+    if root.is_none() {
+        mirrored(seen, report);
+    }
     // A document that was given up early has its JSON and no buffer.
     let Some(buffer) = seen.document.buffers.first().filter(|_| !report.has(&code::FILE_COMPRESSED)) else {
         return Vec::new();
     };
+    beside(seen, folder, report);
     let (summary, problems) = second_reader::problems(&seen.document.json, buffer);
     for problem in problems {
         report.say(problem.code, problem.place, problem.text);
@@ -65,6 +71,54 @@ pub(crate) fn check(subject: &Subject, report: &mut Report) -> Vec<String> {
         leaves(subject, report);
     }
     summary.rooms
+}
+
+/// Maps that lie beside the file: whether they do, and are what their names say. Their headers alone are read.
+fn beside(seen: &Survey, folder: &Path, report: &mut Report) {
+    const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+    let sheets = seen.foliage().and_then(|root| root[names::ROOM_TRANSLUCENCY].as_object());
+    for (sheet, links) in sheets.into_iter().flatten() {
+        for (map, link) in links["maps"].as_object().into_iter().flatten() {
+            let Some(uri) = link["exr"].as_str() else { continue };
+            let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy().into_owned();
+            let mut head = [0; 4];
+            let opened = std::fs::File::open(folder.join(&name));
+            let place = format!("map {sheet}/{map}");
+            match opened.and_then(|mut file| file.read_exact(&mut head)) {
+                Ok(()) if head == EXR => {}
+                Ok(()) => report.say(&code::TEXTURE_BROKEN, place, format!("{name} is no EXR: bake again")),
+                Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                    let message = format!("{name} is not beside the file: put it there, or bake again");
+                    report.say(&code::TEXTURE_MISSING, place, message);
+                }
+                Err(error) => report.say(&code::TEXTURE_BROKEN, place, format!("{name} cannot be read: {error}")),
+            }
+        }
+    }
+}
+
+/// Values of channels of a file whose extension a tool dropped: what they may be still holds, whatever form they have.
+fn mirrored(seen: &Survey, report: &mut Report) {
+    /// Share of its range by which a value that was rounded may lie outside.
+    const ROUNDED: f32 = 0.01;
+    let Some(root) = seen.foliage().filter(|_| !report.has(&code::FILE_COMPRESSED)) else { return };
+    let meshes = seen.document.list("meshes").iter().enumerate();
+    let primitives = meshes.flat_map(|(m, mesh)| {
+        let list = mesh["primitives"].as_array().into_iter().flatten().enumerate();
+        list.map(move |(p, primitive)| (format!("/meshes/{m}/primitives/{p}"), primitive))
+    });
+    for (place, primitive) in primitives {
+        for channel in CHANNELS {
+            let name = root["renamed"][channel.name].as_str().unwrap_or(channel.name);
+            let Some(read) = seen.attribute(primitive, name) else { continue };
+            let slack = ROUNDED * (channel.max - channel.min).min(f32::MAX);
+            let is_wild = |v: &f32| !(v.is_finite() && *v >= channel.min - slack && *v <= channel.max + slack);
+            if let Some(at) = read.values.iter().position(is_wild) {
+                let message = format!("{name} of vertex {} is {}", at / read.width.max(1), read.values[at]);
+                report.say(&code::CONTRACT_RANGE, place.clone(), message);
+            }
+        }
+    }
 }
 
 /// Leaves of the table beside the geometry.

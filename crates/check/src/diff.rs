@@ -3,14 +3,19 @@
 use foliar_bake::{Array, Layer};
 use foliar_numerics::ErrorStats;
 use foliar_plant::Place;
-use foliar_schema::{Channel, Column, Role, channel, column, names};
+use foliar_schema::{Channel, Column, RASTERS, Role, channel, column, names};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Places that are listed at most.
 const WORST: usize = 3;
 /// A column has no visible step: its greatest number over this stands in for one.
 const COLUMN_STEPS: f64 = 1000.0;
+/// What stands before the name of a map.
+const MAP: &str = "map ";
+/// A map of which the contract knows no step has that of 8 bits.
+const MAP_STEP: f64 = 1.0 / 255.0;
 /// One that is a direction has the step of normals.
 const DIRECTION_STEP_DEG: f64 = 1.0;
 
@@ -57,6 +62,12 @@ impl Difference {
         Difference { room, name, count: 0, problem, rms_steps, p999_steps, max_steps, worst: Vec::new() }
     }
 
+    /// The bases that two files were baked from, by their hashes: everything but what foliar wrote.
+    pub fn of_bases(a: &str, b: &str) -> Self {
+        let problem = (a != b).then(|| "another base: its geometry, materials or pictures are not the same".to_owned());
+        Difference { count: 1, ..Difference::of(&("base".into(), "base".into()), problem) }
+    }
+
     /// Whether it is beyond a tolerance in steps.
     pub fn exceeds(&self, tolerance: f64) -> bool {
         self.problem.is_some() || self.max_steps > tolerance
@@ -71,6 +82,7 @@ pub fn diff(a: &[Layer], b: &[Layer]) -> Vec<Difference> {
     let none = BTreeMap::new();
     let of = |all: &'_ BTreeMap<Key, _>, key| all.get(key).is_some();
     let mut all: Vec<Difference> = roles(layers.0, layers.1).into_iter().collect();
+    all.extend(pictures(layers.0, layers.1));
     for key in names {
         let only = |file: &str| Some(format!("only in {file}"));
         let problem = match (of(&a, key), of(&b, key)) {
@@ -100,10 +112,28 @@ fn roles(a: &[Layer], b: &[Layer]) -> Option<Difference> {
     (!places.is_empty()).then(|| Difference { count: places.len(), ..Difference::of(&key, problem) })
 }
 
+/// Pictures that are passed on: the same bytes, or others.
+fn pictures(a: &[Layer], b: &[Layer]) -> Vec<Difference> {
+    let of = |layers: &'_ [Layer]| -> BTreeMap<Key, Vec<u8>> {
+        let all =
+            layers.iter().flat_map(|layer| layer.pictures.iter().map(move |picture| (&layer.record.room, picture)));
+        all.map(|(room, (name, bytes))| ((room.clone(), format!("picture {name}")), bytes.clone())).collect()
+    };
+    let (a, b) = (of(a), of(b));
+    let keys: BTreeSet<&Key> = a.keys().chain(b.keys()).collect();
+    let problem = |key| match (a.get(key), b.get(key)) {
+        (Some(a), Some(b)) if a == b => None,
+        (Some(_), Some(_)) => Some("another picture".to_owned()),
+        (Some(_), None) => Some("only in the first file".to_owned()),
+        _ => Some("only in the second file".to_owned()),
+    };
+    keys.into_iter().map(|key| Difference { count: 1, ..Difference::of(key, problem(key)) }).collect()
+}
+
 /// Room and name.
 type Key = (String, String);
 /// Arrays by the words for their place.
-type Arrays<'a> = BTreeMap<String, &'a Array>;
+type Arrays<'a> = BTreeMap<String, Cow<'a, Array>>;
 
 fn by_name(layers: &[Layer]) -> BTreeMap<Key, Arrays<'_>> {
     let mut all: BTreeMap<Key, Arrays> = BTreeMap::new();
@@ -111,18 +141,24 @@ fn by_name(layers: &[Layer]) -> BTreeMap<Key, Arrays<'_>> {
         let room = &layer.record.room;
         for (key, array) in &layer.attributes {
             let place = format!("mesh {} primitive {} vertex", key.place.mesh, key.place.primitive);
-            all.entry((room.clone(), key.name.clone())).or_default().insert(place, array);
+            all.entry((room.clone(), key.name.clone())).or_default().insert(place, Cow::Borrowed(array));
+        }
+        for (name, raster) in &layer.rasters {
+            let size = format!("{} x {} texel", raster.width, raster.height);
+            let array = Array::F32 { width: raster.channels.max(1) as usize, data: raster.data.clone() };
+            all.entry((room.clone(), format!("{MAP}{name}"))).or_default().insert(size, Cow::Owned(array));
         }
         for (key, array) in &layer.columns {
             let name = format!("{}/{}", key.class, key.property);
-            all.entry((room.clone(), name)).or_default().insert(format!("{} row", key.class), array);
+            all.entry((room.clone(), name)).or_default().insert(format!("{} row", key.class), Cow::Borrowed(array));
         }
     }
     all
 }
 
 fn one(key: &Key, problem: Option<String>, a: &Arrays, b: &Arrays) -> Difference {
-    let problem = problem.or_else(|| a.iter().find_map(|(place, array)| unlike(place, array, b.get(place).copied())));
+    let problem =
+        problem.or_else(|| a.iter().find_map(|(place, array)| unlike(place, array, b.get(place).map(AsRef::as_ref))));
     let problem = problem.or_else(|| {
         let place = b.keys().find(|place| !a.contains_key(*place))?;
         Some(format!("{place}: only in the second file"))
@@ -131,7 +167,8 @@ fn one(key: &Key, problem: Option<String>, a: &Arrays, b: &Arrays) -> Difference
     if difference.problem.is_some() {
         return difference;
     }
-    let pairs: Vec<(&String, &Array, &Array)> = a.iter().map(|(place, array)| (place, *array, b[place])).collect();
+    let pairs: Vec<(&String, &Array, &Array)> =
+        a.iter().map(|(place, array)| (place, array.as_ref(), b[place].as_ref())).collect();
     let measure = Measure::of(&key.1, &pairs);
     let mut spots = Vec::new();
     let mut steps = Vec::new();
@@ -198,6 +235,11 @@ impl Measure {
             }
             Some(channel) if channel.optical_depth => Measure::Depth(channel.visible_step),
             Some(channel) => Measure::Length(channel.visible_step),
+            None if name.starts_with(MAP) => {
+                let own = name.rsplit('/').next();
+                let step = RASTERS.iter().find(|info| Some(info.name) == own).map(|info| info.visible_step);
+                Measure::Length(step.filter(|step| *step > 0.0).unwrap_or(MAP_STEP))
+            }
             None if of_column(name).is_some_and(|column| column.optical_depth) => {
                 Measure::Depth(of_column(name).map_or(1.0, |column| column.visible_step))
             }
@@ -292,6 +334,26 @@ mod tests {
         assert!(of("role").exceeds(1e9));
         let same = diff(&[with(up, Role::Leaf)], &[with(up, Role::Leaf)]);
         assert!(same.iter().all(|d| !d.exceeds(0.0)), "{same:?}");
+    }
+
+    #[test]
+    fn maps_are_compared_texel_by_texel_and_pictures_byte_by_byte() {
+        let with = |value: f32, picture: u8| {
+            let mut layer = Layer::default();
+            layer.record.room = names::ROOM_TRANSLUCENCY.into();
+            let data = vec![0.25, 0.25, 0.25, 0.25, value, 0.25, 0.25, 0.25];
+            let raster = foliar_bake::FloatRaster { width: 2, height: 1, channels: 4, data };
+            layer.rasters.insert(format!("leaf/{}", names::RASTER_TRANSLUCENCY_FRONT), raster);
+            layer.pictures.insert("leaf/color".into(), vec![picture]);
+            layer
+        };
+        let same = diff(&[with(0.25, 1)], &[with(0.25, 1)]);
+        assert!(same.len() == 2 && same.iter().all(|d| !d.exceeds(0.0)), "{same:?}");
+        let found = diff(&[with(0.25, 1)], &[with(0.5, 2)]);
+        let map = found.iter().find(|d| d.name.starts_with("map ")).unwrap();
+        assert!(map.exceeds(1.0) && map.worst[0].place.ends_with("texel 1"), "{found:?}");
+        let picture = found.iter().find(|d| d.name.starts_with("picture ")).unwrap();
+        assert_eq!(picture.problem.as_deref(), Some("another picture"));
     }
 
     #[test]

@@ -86,7 +86,7 @@ pub fn check(
     materials::check(&subject, &facts, &mut report);
     plant::check(&subject, &mut report);
     required.check(&seen, &mut report);
-    let rooms = contract::check(&subject, &mut report);
+    let rooms = contract::check(&subject, folder, &mut report);
     if let Some(master) = master {
         lost::compare(&seen, master, &mut report);
     }

@@ -1,6 +1,6 @@
 //! Columns (values per leaf or branch), with units, ranges and the step that an eye can just see.
 
-use crate::{COLUMNS, Element};
+use crate::{COLUMNS, Element, names};
 
 /// One value per row of a property table.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,20 @@ pub struct Column {
 
 /// Any number.
 pub(crate) const ANY: [f32; 2] = [f32::MIN, f32::MAX];
+
+/// Any number that is not below 0.
+pub(crate) const NOT_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
+
+/// Rows of a table, and -1 for none.
+pub(crate) const ROWS: [f32; 2] = [-1.0, f32::MAX];
+
+/// Columns whose numbers are rows of the table of a class; -1 is none.
+pub const REFERENCES: [(&str, &str, &str); 4] = [
+    (names::CLASS_LEAF, "branch", names::CLASS_BRANCH),
+    (names::CLASS_BRANCH, "parent", names::CLASS_BRANCH),
+    (names::CLASS_BRANCH, "chain", names::CLASS_BRANCH),
+    (names::CLASS_AXIS, "branch", names::CLASS_BRANCH),
+];
 
 /// The column of this class and name.
 pub fn column(class: &str, name: &str) -> Option<&'static Column> {

@@ -17,7 +17,7 @@ mod rooms;
 
 pub use channel::{Channel, Element, Neutral, channel};
 pub use codes::{CODES, CodeInfo, code};
-pub use column::{Column, column};
+pub use column::{Column, REFERENCES, column};
 pub use config::{
     Ambient, Budget, Camera, Check, Engine, Fall, Import, Light, Pack, Roles, Scene, Sky, Strength, Sun, Unit, Up, Wind,
 };

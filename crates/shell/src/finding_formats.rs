@@ -8,12 +8,13 @@ use serde_json::{Map, Value, json};
 /// Code under which a failure is shown.
 const FAILED: &str = "FAILED";
 
-/// The findings of all assets in this format; nothing for formats that tell them as they go.
-pub fn text(format: Format, reports: &[Map<String, Value>]) -> Option<String> {
+/// The findings of all assets in this format; nothing for formats that tell them as they go. JUnit knows no levels: what
+/// is as serious as `failure` fails.
+pub fn text(format: Format, reports: &[Map<String, Value>], failure: Severity) -> Option<String> {
     match format {
         Format::Human | Format::Json => None,
         Format::Sarif => Some(format!("{:#}", sarif(reports))),
-        Format::Junit => Some(junit(reports)),
+        Format::Junit => Some(junit(reports, failure)),
         Format::Github => Some(reports.iter().flat_map(findings).map(|f| github(&f)).collect::<Vec<_>>().join("\n")),
     }
 }
@@ -108,19 +109,19 @@ fn uri(path: &str) -> String {
 }
 
 /// One suite per asset; notes pass, all else fails.
-fn junit(reports: &[Map<String, Value>]) -> String {
-    let suites: String = reports.iter().map(suite).collect();
+fn junit(reports: &[Map<String, Value>], failure: Severity) -> String {
+    let suites: String = reports.iter().map(|report| suite(report, failure)).collect();
     format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"foliar\">\n{suites}</testsuites>")
 }
 
-fn suite(report: &Map<String, Value>) -> String {
+fn suite(report: &Map<String, Value>, failure: Severity) -> String {
     let name = xml(asset(report));
     let all = findings(report);
-    let failed = all.iter().filter(|finding| finding.severity > Severity::Note).count();
+    let failed = all.iter().filter(|finding| finding.severity >= failure).count();
     let case = |finding: &Finding| {
         let text = xml(&format!("{}: {}", finding.place.as_deref().unwrap_or("file"), finding.message));
         let open = format!("<testcase classname=\"{name}\" name=\"{}\">", xml(&finding.code));
-        let said = if finding.severity > Severity::Note {
+        let said = if finding.severity >= failure {
             let first = xml(finding.message.lines().next().unwrap_or_default());
             format!("<failure type=\"{}\" message=\"{first}\">{text}</failure>", severity(finding.severity))
         } else {
@@ -186,17 +187,20 @@ mod tests {
 
     #[test]
     fn junit_counts_and_escapes() {
-        let text = junit(&[report()]);
+        let text = junit(&[report()], Severity::Warning);
         assert!(text.contains("tests=\"2\" failures=\"2\""), "{text}");
         assert!(text.contains("a &lt;b&gt; &amp; &quot;c&quot;"), "{text}");
         assert!(text.contains("<failure type=\"warning\" message=\"a &lt;b&gt; &amp; &quot;c&quot;,\">"), "{text}");
-        let clean = junit(&[json!({"asset": "a.obj", "findings": []}).as_object().unwrap().clone()]);
+        // The failure of the file itself is an error; the finding is a warning.
+        let text = junit(&[report()], Severity::Error);
+        assert!(text.contains("failures=\"1\"") && text.contains("<system-out>line 7: a"), "{text}");
+        let clean = junit(&[json!({"asset": "a.obj", "findings": []}).as_object().unwrap().clone()], Severity::Error);
         assert!(clean.contains("tests=\"1\" failures=\"0\"") && clean.contains("name=\"no faults\""), "{clean}");
     }
 
     #[test]
     fn github_escapes_what_its_commands_are_made_of() {
-        let all = text(Format::Github, &[report()]).unwrap();
+        let all = text(Format::Github, &[report()], Severity::Error).unwrap();
         let first = all.lines().next().unwrap();
         assert_eq!(first, "::warning file=a%2Cb.obj,line=7,title=IMPORT-MTL::a <b> & \"c\",%0A50 %25");
         let placed = Finding::new(&code::STALE, "changed").at("/meshes/0").in_file("a.glb");

@@ -8,6 +8,7 @@ use crate::outputs::{self, Job};
 use crate::report::{Report, Told};
 use crate::{Failure, finding_formats, telling};
 use foliar_carrier::{Outcome, OutputFile};
+use foliar_schema::Severity;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -76,7 +77,8 @@ pub fn run(options: &Options, console: &Console, jobs: &[Job], work: Work) -> Re
             break;
         }
     }
-    if let Some(text) = finding_formats::text(options.format, &done.reports) {
+    let failure = options.failure.unwrap_or(Severity::Error);
+    if let Some(text) = finding_formats::text(options.format, &done.reports, failure) {
         console.result(&text)?;
     }
     let (lists, written) = write_lists(options, &done);

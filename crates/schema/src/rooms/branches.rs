@@ -2,7 +2,7 @@
 
 use super::Room;
 use super::structure::{CLASS_LEAF, MAX_ID};
-use crate::{Channel, Column, Element, Neutral, Role, column::ANY};
+use crate::{Channel, Column, Element, Neutral, Role, column::ANY, column::NOT_NEGATIVE, column::ROWS};
 
 /// The layer of the branch hierarchy, which structure finds when a room asks for it.
 pub const ROOM_BRANCHES: &str = "branches";
@@ -23,10 +23,10 @@ pub const CLASS_BRANCH: &str = "foliarBranch";
 pub const CLASS_AXIS: &str = "foliarBranchAxis";
 
 macro_rules! branch_column {
-    ($name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
-        branch_column!(CLASS_BRANCH, $name, $element, $width, $array, $unit, $doc)
+    ($name:literal, $element:ident, $width:literal, $array:literal, $range:expr, $unit:literal, $doc:literal) => {
+        branch_column!(CLASS_BRANCH, $name, $element, $width, $array, $range, $unit, $doc)
     };
-    ($class:ident, $name:literal, $element:ident, $width:literal, $array:literal, $unit:literal, $doc:literal) => {
+    ($class:ident, $name:literal, $element:ident, $width:literal, $array:literal, $range:expr, $unit:literal, $doc:literal) => {
         Column {
             class: $class,
             name: $name,
@@ -35,7 +35,7 @@ macro_rules! branch_column {
             width: $width,
             array: $array,
             unit: $unit,
-            range: ANY,
+            range: $range,
             visible_step: 0.0,
             optical_depth: false,
             doc: $doc,
@@ -86,7 +86,7 @@ pub(super) const ROOM: Room = Room {
             width: 1,
             array: false,
             unit: "row of foliarBranch, -1 none",
-            range: ANY,
+            range: ROWS,
             visible_step: 0.0,
             optical_depth: false,
             doc: "branch that the petiole is nearest to",
@@ -109,15 +109,17 @@ pub(super) const ROOM: Room = Room {
             I32,
             1,
             false,
+            ROWS,
             "row of foliarBranch, -1 none",
             "branch that it grows from; -1 for a root"
         ),
-        branch_column!("level", I32, 1, false, "level", "0 for a stem, else its parent's plus one"),
+        branch_column!("level", I32, 1, false, NOT_NEGATIVE, "level", "0 for a stem, else its parent's plus one"),
         branch_column!(
             "chain",
             I32,
             4,
             true,
+            ROWS,
             "rows of foliarBranch, -1 none",
             "the branch itself or its ancestor at levels 0 to 3"
         ),
@@ -126,6 +128,7 @@ pub(super) const ROOM: Room = Room {
             F32,
             3,
             false,
+            ANY,
             "m, rest frame",
             "where its axis, drawn on backward, meets its parent's"
         ),
@@ -134,38 +137,58 @@ pub(super) const ROOM: Room = Room {
             F32,
             3,
             false,
+            ANY,
             "unit vector, rest frame",
             "from its root to the middle of its length"
         ),
-        branch_column!("length", F32, 1, false, "m", "length of its axis"),
-        branch_column!("radius", F32, 1, false, "m", "radius at its root"),
-        branch_column!("margin", F32, 1, false, "1", "cost of the second-best parent less that of the chosen one"),
+        branch_column!("length", F32, 1, false, NOT_NEGATIVE, "m", "length of its axis"),
+        branch_column!("radius", F32, 1, false, NOT_NEGATIVE, "m", "radius at its root"),
+        branch_column!("margin", F32, 1, false, ANY, "1", "cost of the second-best parent less that of the chosen one"),
         branch_column!(
             "cost",
             F32,
             1,
             false,
+            ANY,
             "1",
             "cost of the chosen parent: gap, distance from its axis, thickness, taper"
         ),
-        branch_column!("gap", F32, 1, false, "radii of the branch", "distance between its bark and its parent's"),
+        branch_column!("gap", F32, 1, false, ANY, "radii of the branch", "distance between its bark and its parent's"),
         branch_column!(
             "kind",
             I32,
             1,
             false,
+            [0.0, 2.0],
             "0, 1 or 2",
             "0 hangs on another, 1 stands on the ground, 2 is an island"
         ),
-        branch_column!("roughness", F32, 1, false, "1", "mean deviation of its rings from circles, over their radius"),
-        branch_column!("split", F32, 1, false, "1", "share of its rings that fall into several parts: it is fused"),
-        branch_column!("tubes", I32, 1, false, "tubes", "tubes end to end that it was joined from"),
+        branch_column!(
+            "roughness",
+            F32,
+            1,
+            false,
+            NOT_NEGATIVE,
+            "1",
+            "mean deviation of its rings from circles, over their radius"
+        ),
+        branch_column!(
+            "split",
+            F32,
+            1,
+            false,
+            [0.0, 1.0],
+            "1",
+            "share of its rings that fall into several parts: it is fused"
+        ),
+        branch_column!("tubes", I32, 1, false, NOT_NEGATIVE, "tubes", "tubes end to end that it was joined from"),
         branch_column!(
             CLASS_AXIS,
             "branch",
             I32,
             1,
             false,
+            NOT_NEGATIVE,
             "row of foliarBranch",
             "branch whose axis runs through the ring"
         ),
@@ -175,10 +198,11 @@ pub(super) const ROOM: Room = Room {
             F32,
             3,
             false,
+            ANY,
             "m, rest frame",
             "center of the ring less the branch's pivot"
         ),
-        branch_column!(CLASS_AXIS, "radius", F32, 1, false, "m, rest frame", "radius of the ring"),
+        branch_column!(CLASS_AXIS, "radius", F32, 1, false, NOT_NEGATIVE, "m, rest frame", "radius of the ring"),
     ],
     rasters: &[],
 };

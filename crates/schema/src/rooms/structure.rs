@@ -1,7 +1,7 @@
 //! What the step that finds roles and leaves writes.
 
 use super::Room;
-use crate::{Channel, Column, Element, Neutral, Role, column::ANY};
+use crate::{Channel, Column, Element, Neutral, Role, column::ANY, column::NOT_NEGATIVE};
 
 /// Largest id that a float attribute holds exactly.
 pub(super) const MAX_ID: f32 = 16_777_216.0;
@@ -19,7 +19,7 @@ pub const LABEL_LEAF: &str = "foliar_leaf";
 pub const CLASS_LEAF: &str = "foliarLeaf";
 
 macro_rules! leaf_column {
-    ($name:literal, $element:ident, $width:literal, $unit:literal, $doc:literal) => {
+    ($name:literal, $element:ident, $width:literal, $range:expr, $unit:literal, $doc:literal) => {
         Column {
             class: CLASS_LEAF,
             name: $name,
@@ -28,7 +28,7 @@ macro_rules! leaf_column {
             width: $width,
             array: false,
             unit: $unit,
-            range: ANY,
+            range: $range,
             visible_step: 0.0,
             optical_depth: false,
             doc: $doc,
@@ -54,12 +54,12 @@ pub(super) const ROOM: Room = Room {
         doc: "leaf that the vertex belongs to",
     }],
     columns: &[
-        leaf_column!("center", F32, 3, "m, rest frame", "area-weighted center of the leaf"),
-        leaf_column!("normal", F32, 3, "unit vector, rest frame", "area-weighted normal, side of the first face"),
-        leaf_column!("area", F32, 1, "m^2", "one-sided area times alpha coverage"),
-        leaf_column!("group", I32, 1, "group id", "leaves that are one object share it"),
-        leaf_column!("petiole", F32, 3, "m, rest frame", "point of the leaf nearest to wood"),
-        leaf_column!("crownVolume", I32, 1, "0 or 1", "1 where the row was sampled from a crown volume"),
+        leaf_column!("center", F32, 3, ANY, "m, rest frame", "area-weighted center of the leaf"),
+        leaf_column!("normal", F32, 3, ANY, "unit vector, rest frame", "area-weighted normal, side of the first face"),
+        leaf_column!("area", F32, 1, NOT_NEGATIVE, "m^2", "one-sided area times alpha coverage"),
+        leaf_column!("group", I32, 1, ANY, "group id", "leaves that are one object share it"),
+        leaf_column!("petiole", F32, 3, ANY, "m, rest frame", "point of the leaf nearest to wood"),
+        leaf_column!("crownVolume", I32, 1, [0.0, 1.0], "0 or 1", "1 where the row was sampled from a crown volume"),
     ],
     rasters: &[],
 };

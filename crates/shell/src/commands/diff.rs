@@ -32,9 +32,15 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     let job = Job { input: a.clone(), output: None };
     let mut beyond = Vec::new();
     runner::run(&options, &console, &[job], &mut |_, report| {
-        let (first, second) = (layers(&sources, &options, a, report)?, layers(&sources, &options, b, report)?);
+        let (first, one) = layers(&sources, &options, a, report)?;
+        let (second, other) = layers(&sources, &options, b, report)?;
         console.log(&report.lap("read"));
-        let differences = foliar_check::diff(&first, &second);
+        if first.is_empty() && second.is_empty() {
+            let names = format!("{} and {}", a.display(), b.display());
+            return Err(Failure::Input(format!("{names} hold no layer: there is nothing to compare; bake them first")));
+        }
+        let bases = one.zip(other).map(|(one, other)| Difference::of_bases(&one, &other));
+        let differences: Vec<Difference> = bases.into_iter().chain(foliar_check::diff(&first, &second)).collect();
         let is_beyond = |d: &&Difference| d.exceeds(tolerance);
         beyond = differences.iter().filter(is_beyond).map(|d| d.name.clone()).collect();
         let parameters = parameters(&first, &second);
@@ -51,15 +57,21 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     }
 }
 
-fn layers(sources: &Sources, options: &Options, input: &Path, report: &mut Report) -> Result<Vec<Layer>, Failure> {
+/// Layers of a file, and the hash of the base that they were put onto, where it has one.
+fn layers(
+    sources: &Sources,
+    options: &Options,
+    input: &Path,
+    report: &mut Report,
+) -> Result<(Vec<Layer>, Option<String>), Failure> {
     if is_layer(input) {
         report.read.push(input.to_path_buf());
-        return Ok(vec![load::layer(input)?]);
+        return Ok((vec![load::layer(input)?], None));
     }
     let asset = load::asset(sources, options, input)?;
     report.read.extend_from_slice(&asset.files);
     report.find(asset.findings);
-    Ok(asset.layers)
+    Ok((asset.layers, Some(asset.base_hash)))
 }
 
 /// Parameters that were not the same, `room.key: A, B`.
@@ -89,9 +101,6 @@ fn words(differences: &[Difference], parameters: &[String], tolerance: f64) -> S
         };
         let [rms, p999, max] = [d.rms_steps, d.p999_steps, d.max_steps].map(number);
         cells.push([d.room.clone(), d.name.clone(), d.count.to_string(), rms, p999, max, verdict]);
-    }
-    if differences.is_empty() {
-        return "neither file holds a layer: there is nothing to compare; bake them first".into();
     }
     let mut text = columns(&cells);
     for d in differences.iter().filter(|d| d.exceeds(tolerance)) {

@@ -88,10 +88,16 @@ fn room(layer: &Layer) -> Value {
         let unit = column(&key.class, &key.property).map_or("", |info| info.unit);
         statistics(&key.property, &key.class, unit, array)
     });
+    let rasters = layer.rasters.iter().map(|(name, raster)| {
+        let array = Array::F32 { width: raster.channels.max(1) as usize, data: raster.data.clone() };
+        statistics(name, &format!("map of {} x {} texels", raster.width, raster.height), "", &array)
+    });
+    let pictures = layer.pictures.iter().map(|(name, bytes)| json!({"name": name, "bytes": bytes.len()}));
     json!({
         "room": layer.record.room,
         "record": layer.record,
-        "channels": attributes.chain(columns).collect::<Vec<_>>(),
+        "channels": attributes.chain(columns).chain(rasters).collect::<Vec<_>>(),
+        "pictures": pictures.collect::<Vec<_>>(),
     })
 }
 
@@ -154,6 +160,9 @@ fn text(held: &Value) -> String {
         let record = &room["record"];
         text.push_str(&format!("\n{} version {}, given {}\n", word(&room["room"]), record["version"], record["given"]));
         text.push_str(&rows(&list(&room["channels"]), ["name", "place", "rows", "unit", "min", "mean", "max"], each));
+        for picture in list(&room["pictures"]) {
+            text.push_str(&format!("picture {}, {} bytes\n", word(&picture["name"]), picture["bytes"]));
+        }
         for error in list(&record["errors"]) {
             let [rms, p999] = ["rmsSteps", "p999Steps"].map(|key| word(&error[key]));
             let channel = word(&error["channel"]);

@@ -1,5 +1,7 @@
 //! What a third-party optimizer lost: a file beside the master that it was made from.
 
+mod parts;
+
 use crate::Report;
 use foliar_carrier::survey::{Found, Survey, Trouble};
 use foliar_schema::{CHANNELS, Channel, Finding, code, names};
@@ -27,11 +29,14 @@ pub(crate) fn compare(after: &Survey, master: &Survey, report: &mut Report) {
             None => values(after, master, channel, report),
         }
     }
-    tables(after, master, report);
-    let roles = |seen: &Survey| primitives(seen).filter(|(_, p)| role(p)).count();
+    parts::lost_tables(after, master, report);
+    parts::lost_maps(after, master, report);
+    let roles = |seen: &Survey| primitives(seen).filter(|(_, p)| parts::role(p).is_some()).count();
     let (before, now) = (roles(master), roles(after));
     if before > 0 && now == 0 {
         report.say(&code::LOST_ROLE, "", format!("{before} primitives of the master have a role, none here"));
+    } else if before > 0 {
+        parts::lost_roles(after, master, report);
     }
     materials(after, master, report);
     let triangles = |seen: &Survey| seen.base.parts.iter().map(|part| part.triangles.len()).sum::<usize>();
@@ -61,13 +66,14 @@ fn primitives(seen: &Survey) -> impl Iterator<Item = (String, &Value)> {
     })
 }
 
-fn role(primitive: &Value) -> bool {
-    ["extensions", "extras"].iter().any(|place| primitive[place][names::EXTENSION]["role"].is_string())
-}
-
 /// The name of a channel in the master, which may have had to step aside.
 fn name<'a>(master: &'a Survey, channel: &'a str) -> &'a str {
     master.foliage().and_then(|root| root["renamed"][channel].as_str()).unwrap_or(channel)
+}
+
+/// Whether a primitive has an attribute.
+fn carried_by(primitive: &Value, name: &str) -> bool {
+    !primitive["attributes"][name].is_null()
 }
 
 /// Whether a primitive's attributes lie in a code of their own.
@@ -85,7 +91,7 @@ struct Carried {
 fn carried(seen: &Survey, attribute: impl Fn(&Value) -> Option<String>) -> Carried {
     let mut all = Carried { primitives: 0, values: Some(Vec::new()) };
     for (_, primitive) in primitives(seen) {
-        let Some(name) = attribute(primitive).filter(|name| !primitive["attributes"][name].is_null()) else { continue };
+        let Some(name) = attribute(primitive).filter(|name| carried_by(primitive, name)) else { continue };
         all.primitives += 1;
         // What only a decoder can read reads as zeros here.
         let read = seen.attribute(primitive, &name).filter(|_| !is_coded(primitive));
@@ -111,6 +117,7 @@ fn values(after: &Survey, master: &Survey, channel: &Channel, report: &mut Repor
         let message = format!("{name} stood on {} primitives of the master and is gone", before.primitives);
         return report.say(&code::LOST_CHANNEL, "", message);
     }
+    parts::lost_channel(after, master, channel, report);
     let (Some(old), Some(new)) = (before.values, now.values) else { return };
     let step = match channel.step_unit {
         "degree" => channel.visible_step.to_radians(),
@@ -171,25 +178,6 @@ fn ids(after: &Survey, master: &Survey, label: &str, report: &mut Report) {
     } else if new.len() < old.len() {
         let message = format!("{} of {} ids {label} have no vertex any more", old.len() - new.len(), old.len());
         report.say(&code::LOST_ID, "", message);
-    }
-}
-
-fn tables(after: &Survey, master: &Survey, report: &mut Report) {
-    let classes = |seen: &Survey| -> BTreeMap<String, u64> {
-        let tables = &seen.document.json["extensions"][names::STRUCTURAL_METADATA]["propertyTables"];
-        let row = |table: &Value| Some((table["class"].as_str()?.to_string(), table["count"].as_u64().unwrap_or(0)));
-        tables.as_array().into_iter().flatten().filter_map(row).collect()
-    };
-    let now = classes(after);
-    let own: BTreeSet<&str> = IDS.iter().map(|(.., class)| name(master, class)).collect();
-    for (class, rows) in classes(master).iter().filter(|(class, _)| own.contains(class.as_str())) {
-        match now.get(class) {
-            None => report.say(&code::LOST_TABLE, "", format!("table {class} of the master, {rows} rows, is gone")),
-            Some(left) if left != rows => {
-                report.say(&code::LOST_TABLE, "", format!("table {class}: {rows} rows in the master, {left} here"));
-            }
-            Some(_) => {}
-        }
     }
 }
 
