@@ -25,7 +25,7 @@ fn a_bake_is_itself_and_another_radius_is_another_bake() {
     let moved = here.path().join("moved.obj");
     let whole = std::fs::read_to_string(&obj).unwrap();
     let first = whole.lines().find(|line| line.starts_with("v ")).unwrap();
-    std::fs::write(&moved, whole.replacen(first, &first.replacen("v ", "v 1e-3 ", 1).rsplit_once(' ').unwrap().0, 1))
+    std::fs::write(&moved, whole.replacen(first, first.replacen("v ", "v 1e-3 ", 1).rsplit_once(' ').unwrap().0, 1))
         .unwrap();
     let third = here.path().join("third.glb");
     run(FOLIAR, &["bake", text(&moved), "-o", text(&third)]).expect(0, &[]);

@@ -48,6 +48,47 @@ fn a_neighbor_stands_where_it_is_put() {
     run(VIEW, &[text(&obj), "-o", "x.png", "--neighbor", "gone.obj"]).expect(2, &["must be FILE@x,y,z"]);
 }
 
+/// Wherever a tree is drawn, so is what stands around it.
+#[test]
+fn sheets_and_comparisons_have_neighbors_too() {
+    let (here, baked) = (folder(), output("view-among.glb"));
+    let obj = tree(here.path(), 40);
+    run(FOLIAR, &["bake", text(&obj), "-o", text(&baked), "--only", "density", "--only", "wind", "--only", "branches"])
+        .expect(0, &[]);
+    let place = format!("{}@1.2,0,0,0,0.7", text(&obj));
+    let drawn = |name: &str, more: &[&str]| {
+        let picture = here.path().join(name);
+        run(VIEW, &[&[text(&baked), "-o", text(&picture)], &SMALL[..], more].concat()).expect(0, &[]);
+        std::fs::read(picture).unwrap()
+    };
+    let ways: [&[&str]; 5] =
+        [&["--sheet"], &["--channels"], &["--against", text(&obj)], &["--sway", "2"], &["--sway", "2", "--sheet"]];
+    for (index, way) in ways.into_iter().enumerate() {
+        let alone = drawn(&format!("{index}-alone.png"), way);
+        let among = drawn(&format!("{index}-among.png"), &[way, &["--neighbor", &place]].concat());
+        assert_ne!(alone, among, "{way:?}");
+    }
+}
+
+/// The surface around a crown is a file, and a file is drawn: alone, or with the tree inside it.
+#[test]
+fn the_surface_of_a_crown_is_drawn() {
+    let here = folder();
+    let obj = tree(here.path(), 60);
+    let (crown, out) = (here.path().join("crown.glb"), here.path().join("out.glb"));
+    run(FOLIAR, &["bake", text(&obj), "-o", text(&out), "--only", "density", "--surface", text(&crown)]).expect(0, &[]);
+    let drawn = |input: &str, more: &[&str]| {
+        let picture = here.path().join("x.png");
+        run(VIEW, &[&[input, "-o", text(&picture), "--scale", "none"], &SMALL[..], more].concat()).expect(0, &[]);
+        image::open(picture).unwrap().to_rgba8()
+    };
+    let seen = drawn(text(&crown), &["--background", "clear", "--ground", "none"]);
+    let covered = seen.pixels().filter(|pixel| pixel.0[3] == 255).count();
+    assert!(covered > 200, "{covered} pixels of 64 x 48 show the surface");
+    let inside = format!("{}@0,0,0", text(&crown));
+    assert_ne!(drawn(text(&out), &["--neighbor", &inside]), drawn(text(&out), &[]));
+}
+
 #[test]
 fn a_channel_that_is_not_there_and_a_bad_ending_are_refused() {
     let here = folder();

@@ -110,10 +110,10 @@ impl<'a> Columns<'a> {
     /// Depths toward the direction and away from it at a place, interpolated along its column and
     /// between columns; outside, those of the places where the rays enter, and 0 where they miss.
     pub fn depths(&self, spot: &Spot) -> [f32; 2] {
-        spot.steps.map_or_else(|| self.from_outside(spot.place), |steps| self.interpolate(steps))
+        spot.steps.map_or_else(|| self.seen_from_outside(spot.place), |steps| self.interpolate(steps))
     }
 
-    fn from_outside(&self, place: DVec3) -> [f32; 2] {
+    fn seen_from_outside(&self, place: DVec3) -> [f32; 2] {
         let low = self.lattice.low;
         let high = low + self.lattice.step * (self.lattice.size - 1).as_dvec3();
         let depths = |toward: DVec3| entry(low, high, place, toward).map(|p| self.interpolate(self.lattice.steps(p)));

@@ -144,8 +144,7 @@ impl Field {
     }
 }
 
-/// The center's place in Morton codes.
-
+/// The block of a place.
 fn block_of(code: u64) -> u64 {
     code >> (3 * FINE_BITS)
 }

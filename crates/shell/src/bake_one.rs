@@ -215,7 +215,7 @@ fn draw(loaded: &Loaded, layers: &[Layer], picture: &Path) -> Result<OutputFile,
     let title = picture.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let layers: Vec<&Layer> = layers.iter().collect();
     let refuse = |e| Failure::Input(format!("{}: {e}", picture.display()));
-    let sheet = foliar_view::bake_sheet(&loaded.plant, &layers, &title, &params).map_err(refuse)?;
+    let sheet = foliar_view::bake_sheet(&loaded.plant, &layers, &[], &title, &params).map_err(refuse)?;
     Ok(OutputFile { path: picture.to_path_buf(), bytes: foliar_view::png_bytes(&sheet).map_err(refuse)? })
 }
 

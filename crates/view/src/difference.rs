@@ -1,6 +1,6 @@
 //! What one picture has and another has not.
 
-use crate::values::{Key, Legend};
+use crate::key::{Key, Legend};
 use crate::{ViewError, colors, legend};
 use foliar_numerics::CompensatedSum;
 use glam::Vec3;

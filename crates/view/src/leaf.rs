@@ -1,8 +1,8 @@
 //! A leaf by itself: lit from behind from several sides (Kusternig07 figure 5), its coefficients, and what differs from
 //! another bake of it.
 
+use crate::key::{Key, Legend};
 use crate::sheet::{Panel, contact_sheet};
-use crate::values::{Key, Legend};
 use crate::{ViewError, colors, difference, legend};
 use foliar_bake::{FloatRaster, Layer};
 use foliar_schema::names;

@@ -1,8 +1,8 @@
 //! The legend below a picture: name, unit, colors with their numbers.
 
 use crate::colors;
+use crate::key::{Key, Legend};
 use crate::text::{self, SMALL, number};
-use crate::values::{Key, Legend};
 use foliar_schema::Role;
 use glam::Vec3;
 use image::{Rgba, RgbaImage};

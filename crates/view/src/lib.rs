@@ -7,6 +7,7 @@ mod colors;
 mod difference;
 mod error;
 mod frame;
+mod key;
 mod leaf;
 mod leaf_light;
 mod legend;

@@ -1,7 +1,8 @@
 //! Draws a plant: rays through pixels, alpha tested inside the traversal, one shadow ray for four samples.
 
 use crate::camera::{self, Camera, PLANT_EDGE};
-use crate::frame::Standing;
+use crate::frame::{Frame, Standing};
+use crate::key::Key;
 use crate::leaf_light::{Lamps, Walk};
 use crate::mask::Mask;
 use crate::scene::Scene;
@@ -59,9 +60,23 @@ pub fn render_among(
     shading: &Shading,
     params: &ViewParams,
 ) -> Result<RgbaImage, ViewError> {
+    render_like(plant, layers, around, shading, None, params)
+}
+
+/// The same with false colors by the key of another picture.
+pub(crate) fn render_like(
+    plant: &Plant,
+    layers: &[&Layer],
+    around: &[Standing],
+    shading: &Shading,
+    like: Option<&Key>,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
     params.check()?;
     let right = camera::right(params.azimuth_deg).as_vec3();
-    let scene = Scene::new(plant, layers, around, shading, (params.scale == Scale::Person).then_some(right))?;
+    let person = (params.scale == Scale::Person).then_some(right);
+    let frame = Frame::around(plant, around);
+    let scene = Scene::within(&frame, (plant, layers), around, (shading, like), person)?;
     let camera = Camera::fit(scene.fitted.iter().copied(), &scene.frame, params);
     draw(&scene, camera, shading, params)
 }

@@ -2,10 +2,11 @@
 
 use crate::camera::PLANT_EDGE;
 use crate::frame::{Frame, Standing};
+use crate::key::{Key, Legend};
 use crate::leaf_light::Baked;
 use crate::scale::{self, Person};
 use crate::texture::{self, Cover, Decode, Texture};
-use crate::values::{self, Legend};
+use crate::values;
 use crate::{Normals, Shading, ViewError, colors};
 use foliar_bake::Layer;
 use foliar_plant::{AlphaMode, Part, Plant};
@@ -144,19 +145,19 @@ impl<'a> Scene<'a> {
         shading: &Shading,
         person: Option<Vec3>,
     ) -> Result<Scene<'a>, ViewError> {
-        Scene::within(&Frame::around(plant, around), plant, layers, around, shading, person)
+        Scene::within(&Frame::around(plant, around), (plant, layers), around, (shading, None), person)
     }
 
-    /// The same in a frame of its own: a plant that moves keeps its scale.
+    /// The same in a frame of its own: a plant that moves keeps its scale. False colors by the key of another picture,
+    /// where there is one.
     ///
     /// # Errors
     /// As [`Scene::new`].
     pub fn within(
         frame: &Frame,
-        plant: &'a Plant,
-        layers: &[&Layer],
+        (plant, layers): (&'a Plant, &[&Layer]),
         around: &'a [Standing],
-        shading: &Shading,
+        (shading, like): (&Shading, Option<&Key>),
         person: Option<Vec3>,
     ) -> Result<Scene<'a>, ViewError> {
         let mut scene = Scene {
@@ -176,7 +177,7 @@ impl<'a> Scene<'a> {
             light: Baked::asked(plant, layers, around, shading)?,
         };
         let shown = match shading {
-            Shading::Channel(name) => Some(values::false_colors(plant, layers, name)?),
+            Shading::Channel(name) => Some(values::false_colors(plant, layers, name, like)?),
             _ => None,
         };
         scene.add(plant, layers, shading, frame, shown.as_ref().map(|s| s.colors.as_slice()))?;

@@ -1,7 +1,8 @@
 //! Contact sheets: pictures side by side with captions.
 
+use crate::render::render_like;
 use crate::text::{self, LARGE, SMALL};
-use crate::{Shading, ViewError, ViewParams, difference, render, values};
+use crate::{Shading, Standing, ViewError, ViewParams, difference, render_among, values};
 use foliar_bake::Layer;
 use foliar_numerics::CompensatedSum;
 use foliar_plant::Plant;
@@ -69,10 +70,16 @@ pub fn contact_sheet(panels: &[Panel], titles: &[String], columns: usize) -> Rgb
 /// and `params.channel` do not count; without a baked ambient coefficient its panel is left out.
 ///
 /// # Errors
-/// As [`render`].
-pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewParams) -> Result<RgbaImage, ViewError> {
-    let plain = render(plant, layers, &Shading::Plain, params)?;
-    let baked = render(plant, layers, &Shading::Baked, params)?;
+/// As [`crate::render()`].
+pub fn bake_sheet(
+    plant: &Plant,
+    layers: &[&Layer],
+    around: &[Standing],
+    title: &str,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
+    let plain = render_among(plant, layers, around, &Shading::Plain, params)?;
+    let baked = render_among(plant, layers, around, &Shading::Baked, params)?;
     let changed = difference(&plain, &baked)?;
     let caption = changed.to_string();
     let mut panels = vec![
@@ -81,7 +88,8 @@ pub fn bake_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewPa
         Panel::new(caption, changed.picture),
     ];
     if let Some(caption) = ambient_figures(plant, layers)? {
-        panels.push(Panel::new(caption, render(plant, layers, &Shading::Channel(names::AMBIENT.into()), params)?));
+        let shown = render_among(plant, layers, around, &Shading::Channel(names::AMBIENT.into()), params)?;
+        panels.push(Panel::new(caption, shown));
     }
     Ok(contact_sheet(&panels, &[title.into(), facts(plant)], 2))
 }
@@ -102,10 +110,11 @@ fn facts(plant: &Plant) -> String {
 /// legend; pictures are a third as large as `params` says.
 ///
 /// # Errors
-/// As [`render`].
+/// As [`crate::render()`].
 pub fn channel_sheet(
     plant: &Plant,
     layers: &[&Layer],
+    around: &[Standing],
     title: &str,
     params: &ViewParams,
 ) -> Result<RgbaImage, ViewError> {
@@ -114,9 +123,9 @@ pub fn channel_sheet(
         height_px: (params.height_px / 3).max(LEAST_SMALL * 3 / 4),
         ..params.clone()
     };
-    let mut panels = vec![Panel::new("baked", render(plant, layers, &Shading::Baked, &small)?)];
+    let mut panels = vec![Panel::new("baked", render_among(plant, layers, around, &Shading::Baked, &small)?)];
     for name in values::shown_names(plant, layers, false) {
-        let shown = render(plant, layers, &Shading::Channel(name.clone()), &small)?;
+        let shown = render_among(plant, layers, around, &Shading::Channel(name.clone()), &small)?;
         panels.push(Panel::new(name, shown));
     }
     Ok(contact_sheet(&panels, &[title.into(), facts(plant)], 4))
@@ -126,8 +135,14 @@ pub fn channel_sheet(
 /// sun stands opposite to the first.
 ///
 /// # Errors
-/// As [`render`].
-pub fn light_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewParams) -> Result<RgbaImage, ViewError> {
+/// As [`crate::render()`].
+pub fn light_sheet(
+    plant: &Plant,
+    layers: &[&Layer],
+    around: &[Standing],
+    title: &str,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
     let mut panels = Vec::new();
     for (turn, sun) in [(0.0, "the sun as given"), (180.0, "the sun opposite to that")] {
         // Azimuths of more than a turn are refused.
@@ -135,8 +150,8 @@ pub fn light_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewP
         let lit =
             ViewParams { sun_azimuth_deg: if azimuth > 360.0 { azimuth - 360.0 } else { azimuth }, ..params.clone() };
         let paths = ViewParams { samples: (params.samples * PATHS_PER_SAMPLE).min(1024), ..lit.clone() };
-        let model = render(plant, layers, &Shading::Light, &lit)?;
-        let traced = render(plant, layers, &Shading::Traced, &paths)?;
+        let model = render_among(plant, layers, around, &Shading::Light, &lit)?;
+        let traced = render_among(plant, layers, around, &Shading::Traced, &paths)?;
         let changed = difference(&traced, &model)?;
         let caption = format!("model less paths: {changed}");
         panels.push(Panel::new(format!("model, {sun}"), model));
@@ -146,12 +161,28 @@ pub fn light_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewP
     Ok(contact_sheet(&panels, &[title.into()], 3))
 }
 
-/// Two plants side by side and what differs, under their names.
+/// Two plants side by side and what differs, under their names. In false colors one legend holds for both: the same color
+/// is the same value.
 ///
 /// # Errors
-/// As [`render`]; [`ViewError::Sizes`] where one legend is higher than the other.
-pub fn comparison(plants: [(&Plant, &[&Layer], &str); 2], params: &ViewParams) -> Result<RgbaImage, ViewError> {
-    let [before, after] = plants.map(|(plant, layers, _)| render(plant, layers, &params.shading(), params));
+/// As [`crate::render()`].
+pub fn comparison(
+    plants: [(&Plant, &[&Layer], &str); 2],
+    around: &[Standing],
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
+    let shading = params.shading();
+    let like = match &shading {
+        Shading::Channel(name) => {
+            let [a, b] = plants.map(|(plant, layers, _)| values::false_colors(plant, layers, name, None));
+            Some(a?.legend.kind.with(b?.legend.kind))
+        }
+        _ => None,
+    };
+    let draw = |(plant, layers, _): (&Plant, &[&Layer], &str)| {
+        render_like(plant, layers, around, &shading, like.as_ref(), params)
+    };
+    let [before, after] = plants.map(draw);
     let (before, after) = (before?, after?);
     let changed = difference(&before, &after)?;
     let caption = changed.to_string();

@@ -1,7 +1,7 @@
 //! The plant in wind: the same picture at several times.
 
 use crate::camera::Camera;
-use crate::frame::Frame;
+use crate::frame::{Frame, Standing};
 use crate::scene::Scene;
 use crate::{Panel, Shading, ViewError, ViewParams, contact_sheet, render};
 use foliar_bake::{Baker, Inputs, Layer, Maps, Quiet, resolve_params};
@@ -21,7 +21,7 @@ const PUSH: f64 = 0.3;
 /// Where the wind blows to: across the default view.
 const TOWARD: DVec2 = DVec2::new(0.8, -0.6);
 
-/// `frames` pictures of the plant in wind, so many seconds apart. The plant must have its branches and `layers` the
+/// `frames` pictures of the plant in wind, so many seconds apart; what stands around it stands still. The plant must have its branches and `layers` the
 /// wind room's.
 ///
 /// # Errors
@@ -29,6 +29,7 @@ const TOWARD: DVec2 = DVec2::new(0.8, -0.6);
 pub fn swaying(
     plant: &Plant,
     layers: &[&Layer],
+    around: &[Standing],
     shading: &Shading,
     params: &ViewParams,
     (strength, frames, apart_s): (Strength, u32, f64),
@@ -41,9 +42,9 @@ pub fn swaying(
     let at = |frame: u32| player.gust(amplitude(strength), f64::from(frame) * apart_s, TOWARD, PUSH);
     let moved: Option<Vec<Plant>> = (0..frames.max(1)).map(|frame| player.moved_plant(&at(frame), &noise)).collect();
     let moved = moved.ok_or_else(none)?;
-    let frame = Frame::around(plant, &[]);
+    let frame = Frame::around(plant, around);
     let scenes: Result<Vec<Scene>, ViewError> =
-        moved.iter().map(|plant| Scene::within(&frame, plant, layers, &[], shading, None)).collect();
+        moved.iter().map(|plant| Scene::within(&frame, (plant, layers), around, (shading, None), None)).collect();
     let scenes = scenes?;
     // One camera for all, or the plant would stand still and the world sway.
     let points: Vec<Vec3> = scenes.iter().flat_map(|scene| scene.fitted.iter().copied()).collect();
@@ -56,17 +57,23 @@ pub fn swaying(
 ///
 /// # Errors
 /// As [`swaying`].
-pub fn sway_sheet(plant: &Plant, layers: &[&Layer], title: &str, params: &ViewParams) -> Result<RgbaImage, ViewError> {
+pub fn sway_sheet(
+    plant: &Plant,
+    layers: &[&Layer],
+    around: &[Standing],
+    title: &str,
+    params: &ViewParams,
+) -> Result<RgbaImage, ViewError> {
     let mut panels = Vec::new();
     for (channel, caption) in [
         ("foliarBranch/level", "level of each branch"),
         (names::WIND_WEIGHTS, "weights of levels 1, 2, 3 as red, green, blue"),
         ("foliarWind/phase", "phase of each branch (first coordinate)"),
     ] {
-        let picture = crate::render(plant, layers, &Shading::Channel(channel.into()), params)?;
+        let picture = crate::render_among(plant, layers, around, &Shading::Channel(channel.into()), params)?;
         panels.push(Panel::new(caption, picture));
     }
-    let times = swaying(plant, layers, &params.shading(), params, (Strength::Storm, 6, SHEET_S))?;
+    let times = swaying(plant, layers, around, &params.shading(), params, (Strength::Storm, 6, SHEET_S))?;
     for (index, picture) in times.into_iter().enumerate() {
         panels.push(Panel::new(format!("storm, {:.1} s", index as f64 * SHEET_S), picture));
     }
@@ -102,12 +109,12 @@ mod tests {
     #[test]
     fn a_storm_moves_the_picture_and_still_air_does_not() {
         let (plant, layer) = small();
-        let draw = |strength| swaying(&plant, &[&layer], &Shading::Plain, &params(), (strength, 3, 0.7)).unwrap();
+        let draw = |strength| swaying(&plant, &[&layer], &[], &Shading::Plain, &params(), (strength, 3, 0.7)).unwrap();
         let storm = draw(Strength::Storm);
         assert!(storm[0] != storm[1] && storm[1] != storm[2]);
         let still = draw(Strength::None);
         assert!(still[0] == still[2]);
-        assert!(swaying(&plant, &[], &Shading::Plain, &params(), (Strength::Storm, 2, 0.1)).is_err());
+        assert!(swaying(&plant, &[], &[], &Shading::Plain, &params(), (Strength::Storm, 2, 0.1)).is_err());
     }
 
     #[test]
@@ -121,7 +128,7 @@ mod tests {
             .into(),
             ..Layer::default()
         };
-        let sheet = sway_sheet(&plant, &[&layer, &branches], "small", &params()).unwrap();
+        let sheet = sway_sheet(&plant, &[&layer, &branches], &[], "small", &params()).unwrap();
         assert!(sheet.width() > 3 * 80 && sheet.height() > 3 * 80);
     }
 }

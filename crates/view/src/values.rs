@@ -1,42 +1,11 @@
 //! What is shown per vertex: the baked channels that light needs, and any channel or column as false colors.
 
+use crate::key::{Key, Legend, MOST_STEPS};
 use crate::{ViewError, colors};
 use foliar_bake::{Array, Layer};
 use foliar_plant::{Part, Plant};
 use foliar_schema::{Channel, channel, column, names};
 use glam::Vec3;
-
-/// What a legend says.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Legend {
-    /// Name of the channel or column.
-    pub name: String,
-    /// One line about it.
-    pub doc: String,
-    /// Unit of measure.
-    pub unit: String,
-    /// How colors stand for values.
-    pub kind: Key,
-}
-
-/// How colors stand for values.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Key {
-    /// [`colors::ramp`] from the first number to the second.
-    Ramp(f32, f32),
-    /// [`colors::diverging`] from minus this number to plus this number.
-    Diverging(f32),
-    /// [`colors::of_direction`].
-    Direction,
-    /// Components as red, green and blue, each over its range: names, least and greatest.
-    Box([&'static str; 3], [f32; 3], [f32; 3]),
-    /// [`colors::ramp`] over whole numbers, from the first to the second.
-    Steps(i32, i32),
-    /// [`colors::of_id`]; so many ids.
-    Ids(usize),
-    /// [`colors::of_role`].
-    Roles,
-}
 
 /// Linear colors per part and vertex, and what they mean.
 pub(crate) struct FalseColors {
@@ -70,8 +39,14 @@ pub(crate) fn ambient<'a>(plant: &Plant, layers: &[&'a Layer]) -> Result<Vec<Opt
     attribute(plant, layers, names::AMBIENT, 1)
 }
 
-/// A channel or column in false colors; `NAME[2]` is its third number alone.
-pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Result<FalseColors, ViewError> {
+/// A channel or column in false colors; `NAME[2]` is its third number alone. By the key of another picture, where there is
+/// one.
+pub(crate) fn false_colors(
+    plant: &Plant,
+    layers: &[&Layer],
+    name: &str,
+    like: Option<&Key>,
+) -> Result<FalseColors, ViewError> {
     let plain = |s: &str| s.trim_start_matches('_').to_ascii_lowercase();
     let refuse = || ViewError::Channel { name: name.into(), known: shown_names(plant, layers, true).join(", ") };
     let (whole, component) = split(name).ok_or_else(refuse)?;
@@ -80,13 +55,13 @@ pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Resu
         return Ok(of_roles(plant));
     }
     if component.is_none() && wanted == PETIOLE_LENGTH && !plant.leaves().is_empty() {
-        return Ok(of_petioles(plant));
+        return Ok(of_petioles(plant, like));
     }
     let channels = layers.iter().flat_map(|layer| layer.attributes.keys()).map(|key| key.name.as_str());
     if let Some(info) = channels.filter_map(channel).find(|info| plain(info.name) == wanted) {
         return match component {
             Some(c) if c >= info.width => Err(refuse()),
-            _ => of_channel(plant, layers, info, component),
+            _ => of_channel(plant, layers, info, (component, like)),
         };
     }
     let is_wanted =
@@ -94,7 +69,7 @@ pub(crate) fn false_colors(plant: &Plant, layers: &[&Layer], name: &str) -> Resu
     let mut columns = layers.iter().flat_map(|layer| &layer.columns).filter(|(key, _)| is_drawn(plant, &key.class));
     match columns.find(|(key, _)| is_wanted(&key.class, &key.property)) {
         Some((_, array)) if component.is_some_and(|c| c >= array.width()) => Err(refuse()),
-        Some((key, array)) => of_column(plant, &key.class, &key.property, array, component),
+        Some((key, array)) => of_column(plant, (&key.class, &key.property), array, (component, like)),
         None => Err(refuse()),
     }
 }
@@ -147,11 +122,11 @@ fn of_leaves(class: &str) -> bool {
     !matches!(class, names::CLASS_BRANCH | names::CLASS_WIND)
 }
 
-fn of_petioles(plant: &Plant) -> FalseColors {
+fn of_petioles(plant: &Plant, like: Option<&Key>) -> FalseColors {
     let lengths: Vec<f32> = plant.leaves().iter().map(|leaf| (leaf.center - leaf.petiole).length()).collect();
     let doc = "distance of the leaf's center from where it hangs".into();
     let legend = |kind| Legend { name: PETIOLE_LENGTH.into(), doc, unit: "m".into(), kind };
-    scalars(&rows_of(plant, &lengths, 1, true), None, legend)
+    scalars(&rows_of(plant, &lengths, 1, true), None, like, legend)
 }
 
 fn of_roles(plant: &Plant) -> FalseColors {
@@ -180,7 +155,7 @@ fn of_channel(
     plant: &Plant,
     layers: &[&Layer],
     info: &Channel,
-    component: Option<usize>,
+    (component, like): (Option<usize>, Option<&Key>),
 ) -> Result<FalseColors, ViewError> {
     let arrays = attribute(plant, layers, info.name, info.width)?;
     let legend =
@@ -200,6 +175,7 @@ fn of_channel(
         return Ok(scalars(
             &only(&rows, c),
             range.filter(|_| !info.unit_length).or(UNIT.filter(|_| info.unit_length)),
+            like,
             legend,
         ));
     }
@@ -207,11 +183,11 @@ fn of_channel(
         ids(&rows, plant.leaves().len(), legend)
     } else if info.width == 4 {
         let others = rows.iter().map(|part| part.iter().map(|row| row.map(|r| &r[1..])).collect()).collect();
-        boxed(&others, LEVELS, legend)
+        boxed(&others, LEVELS, like, legend)
     } else if info.unit_length {
         paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
     } else {
-        scalars(&rows, range, legend)
+        scalars(&rows, range, like, legend)
     };
     if info.unit_length {
         to_rest(plant, &rows, &mut shown);
@@ -233,10 +209,9 @@ fn to_rest(plant: &Plant, rows: &Rows, shown: &mut FalseColors) {
 
 fn of_column(
     plant: &Plant,
-    class: &str,
-    property: &str,
+    (class, property): (&str, &str),
     array: &Array,
-    component: Option<usize>,
+    (component, like): (Option<usize>, Option<&Key>),
 ) -> Result<FalseColors, ViewError> {
     let of_leaf = of_leaves(class);
     let expected =
@@ -261,16 +236,16 @@ fn of_column(
     let is_id = ["id", "row of", "rows of"].iter().any(|word| unit.contains(word));
     Ok(match component {
         Some(c) if is_id => ids(&only(&rows, c), usize::MAX, legend),
-        Some(c) => scalars(&only(&rows, c), None, legend),
+        Some(c) => scalars(&only(&rows, c), None, like, legend),
         None if is_id => ids(&only(&rows, 0), usize::MAX, legend),
         None if width == 3 && unit.starts_with("unit vector") => {
             paint(&rows, legend(Key::Direction), |v| colors::of_direction(Vec3::from_slice(v)))
         }
-        None if width == 3 => boxed(&rows, AXES, legend),
-        None if integers.is_some() => whole_numbers(&rows, legend),
-        None if width == 1 => scalars(&rows, None, legend),
+        None if width == 3 => boxed(&rows, AXES, like, legend),
+        None if integers.is_some() => whole_numbers(&rows, like, legend),
+        None if width == 1 => scalars(&rows, None, like, legend),
         // The first stands for all, and says so.
-        None => return of_column(plant, class, property, array, Some(0)),
+        None => return of_column(plant, (class, property), array, (Some(0), like)),
     })
 }
 
@@ -298,8 +273,6 @@ fn branch_of(plant: &Plant, part: usize, vertex: usize) -> Option<u32> {
 
 type Rows<'a> = Vec<Vec<Option<&'a [f32]>>>;
 
-/// Whole numbers that a legend shows one by one span at most so much.
-const MOST_STEPS: f32 = 12.0;
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 /// The stem's own sway, level 0, is what all have: the others are shown.
 const LEVELS: [&str; 3] = ["1:", "2:", "3:"];
@@ -317,27 +290,43 @@ fn paint(rows: &Rows, legend: Legend, color: impl Fn(&[f32]) -> Vec3) -> FalseCo
     FalseColors { colors: rows.iter().map(|part| part.iter().map(vertex).collect()).collect(), legend }
 }
 
-fn scalars(rows: &Rows, range: Option<(f32, f32)>, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
-    let (low, high) = range.unwrap_or_else(|| {
-        let (low, high) = extent(rows);
-        (low[0], high[0])
-    });
+fn scalars(
+    rows: &Rows,
+    range: Option<(f32, f32)>,
+    like: Option<&Key>,
+    legend: impl FnOnce(Key) -> Legend,
+) -> FalseColors {
+    let (low, high) = match like {
+        Some(Key::Ramp(low, high)) => (*low, *high),
+        _ => range.unwrap_or_else(|| {
+            let (low, high) = extent(rows);
+            (low[0], high[0])
+        }),
+    };
     let span = if high > low { high - low } else { 1.0 };
     paint(rows, legend(Key::Ramp(low, high)), |v| colors::ramp((v[0] - low) / span))
 }
 
 /// Whole numbers that are few enough to be told apart; else as [`scalars`].
-fn whole_numbers(rows: &Rows, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
-    let (low, high) = extent(rows);
-    let (low, high) = (low[0], high[0]);
-    if high - low > MOST_STEPS || high <= low {
-        return scalars(rows, None, legend);
+fn whole_numbers(rows: &Rows, like: Option<&Key>, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
+    let (low, high) = match like {
+        Some(Key::Steps(low, high)) => (*low as f32, *high as f32),
+        _ => {
+            let (low, high) = extent(rows);
+            (low[0], high[0])
+        }
+    };
+    if matches!(like, Some(Key::Ramp(..))) || high - low > MOST_STEPS || high <= low {
+        return scalars(rows, None, like, legend);
     }
     paint(rows, legend(Key::Steps(low as i32, high as i32)), |v| colors::ramp((v[0] - low) / (high - low)))
 }
 
-fn boxed(rows: &Rows, names: [&'static str; 3], legend: impl FnOnce(Key) -> Legend) -> FalseColors {
-    let (low, high) = extent(rows);
+fn boxed(rows: &Rows, names: [&'static str; 3], like: Option<&Key>, legend: impl FnOnce(Key) -> Legend) -> FalseColors {
+    let (low, high) = match like {
+        Some(Key::Box(_, low, high)) => (*low, *high),
+        _ => extent(rows),
+    };
     let span: [f32; 3] = std::array::from_fn(|c| if high[c] > low[c] { high[c] - low[c] } else { 1.0 });
     paint(rows, legend(Key::Box(names, low, high)), |v| {
         Vec3::from_array(std::array::from_fn(|c| colors::to_linear(((v[c] - low[c]) / span[c]).clamp(0.0, 1.0))))

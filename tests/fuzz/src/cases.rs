@@ -105,7 +105,7 @@ impl Ground {
             std::fs::write(here.join(name(&seed.file)), mutated.0)?;
             what = mutated.1;
         }
-        for words in tries(&name(&seed.asset), &name(&seed.file)) {
+        for words in tries(&name(&seed.asset), &name(&seed.file), case) {
             if let Some(wrong) = self.run(&here, &words, size)? {
                 let place = here.join(name(&seed.file));
                 return Ok(Some(format!("{}: case {case} ({what}): {}: {wrong}", place.display(), words.join(" "))));
@@ -142,14 +142,26 @@ fn name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
+/// Other commands that read assets.
+const MORE: [&str; 6] = [
+    "foliar inspect FILE",
+    "foliar diff FILE FILE",
+    "foliar-check --after FILE --master FILE --format json",
+    "foliar strip FILE -o stripped.glb",
+    "foliar-pack FILE --for core -o packed.glb",
+    "foliar-view FILE -o view.png --width-px 64 --height-px 48 --samples 1",
+];
+
 /// What is done with an asset one of whose files was mutated, the last time with what came of it.
-fn tries(asset: &str, file: &str) -> Vec<Vec<String>> {
+fn tries(asset: &str, file: &str, case: u64) -> Vec<Vec<String>> {
     let line = match Path::new(file).extension().and_then(|ending| ending.to_str()) {
         Some("layer") => format!("foliar assemble {asset} {file} -o {OUTPUT}"),
         Some("toml") => format!("foliar config {asset}|foliar bake {asset} -o {OUTPUT}"),
         _ => format!("foliar-check {asset} --format json|foliar bake {asset} -o {OUTPUT}"),
     };
-    let lines = format!("{line}|foliar-check {OUTPUT} --format json");
+    // Of what else reads assets one each time.
+    let more = MORE[case as usize % MORE.len()].replace("FILE", asset);
+    let lines = format!("{line}|foliar-check {OUTPUT} --format json|{more}");
     lines.split('|').map(|line| line.split(' ').map(Into::into).collect()).collect()
 }
 

@@ -87,7 +87,7 @@ fn draw() -> Result<()> {
     let inputs = Inputs { plant: Some(&tree.plant), maps: &maps, neighbors: &[] };
     let (layer, _) = bake(&foliar_light::Light, &inputs, &Request::default(), &Quiet)?;
     let params = ViewParams { width_px: 360, height_px: 360, samples: 8, scale: Scale::None, ..ViewParams::default() };
-    let sheet = light_sheet(&tree.plant, &[&tree.layer, &layer], "linden, default bake", &params)?;
+    let sheet = light_sheet(&tree.plant, &[&tree.layer, &layer], &[], "linden, default bake", &params)?;
     std::fs::write(repo::root().join(PICTURE), png_bytes(&sheet)?).context(PICTURE)
 }
 

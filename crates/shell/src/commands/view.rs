@@ -156,17 +156,17 @@ impl Tree<'_> {
         }
         if let Wanted::Sway(frames) = *wanted {
             let wind = (foliar_schema::Strength::Storm, frames, foliar_view::FRAME_S);
-            let times = foliar_view::swaying(plant, layers, &shading, params, wind)?;
+            let times = foliar_view::swaying(plant, layers, self.around, &shading, params, wind)?;
             return foliar_view::apng_bytes(&times, FRAMES_PER_SECOND);
         }
         let title = self.input.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let picture = match wanted {
             Wanted::Sheet if matches!(params.look, Look::Light | Look::Traced) => {
-                foliar_view::light_sheet(plant, layers, &title, params)
+                foliar_view::light_sheet(plant, layers, self.around, &title, params)
             }
-            Wanted::Sheet => foliar_view::bake_sheet(plant, layers, &title, params),
-            Wanted::Channels => foliar_view::channel_sheet(plant, layers, &title, params),
-            Wanted::SwaySheet => foliar_view::sway_sheet(plant, layers, &title, params),
+            Wanted::Sheet => foliar_view::bake_sheet(plant, layers, self.around, &title, params),
+            Wanted::Channels => foliar_view::channel_sheet(plant, layers, self.around, &title, params),
+            Wanted::SwaySheet => foliar_view::sway_sheet(plant, layers, self.around, &title, params),
             _ => foliar_view::render_among(plant, layers, self.around, &shading, params),
         };
         foliar_view::png_bytes(&picture?)
@@ -178,6 +178,6 @@ impl Tree<'_> {
         let (name, other_name) = (name(self.input), name(file));
         let layers = all_layers(other);
         let plants = [(&self.loaded.plant, self.layers, &*name), (&other.plant, &*layers, &*other_name)];
-        foliar_view::png_bytes(&foliar_view::comparison(plants, params)?)
+        foliar_view::png_bytes(&foliar_view::comparison(plants, self.around, params)?)
     }
 }

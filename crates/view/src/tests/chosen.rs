@@ -1,8 +1,9 @@
 //! Laws of what is chosen: a camera's place, one number of several, what a sheet of everything holds.
 
 use super::*;
-use crate::values::{Key, false_colors, shown_names};
-use crate::{Shading, channel_sheet, colors, render};
+use crate::key::Key;
+use crate::values::{false_colors, shown_names};
+use crate::{Shading, channel_sheet, colors, comparison, render};
 use foliar_plant::sample::Recipe;
 
 #[test]
@@ -37,7 +38,7 @@ fn weighted(rows: [[f32; 4]; 4]) -> (Plant, Layer) {
 #[test]
 fn one_number_of_several_is_shown_over_its_range() {
     let (leaf, layer) = weighted([[0.0, 0.0, 1.0, 0.5]; 4]);
-    let shown = |name: &str| false_colors(&leaf, &[&layer], name);
+    let shown = |name: &str| false_colors(&leaf, &[&layer], name, None);
     let ends = ["_WIND_WEIGHTS[0]", "wind_weights[2]", "_WIND_WEIGHTS[3]"].map(|name| shown(name).unwrap());
     for (found, share) in ends.iter().zip([0.0, 1.0, 0.5]) {
         assert_eq!(found.legend.kind, Key::Ramp(0.0, 1.0), "{:?}", found.legend);
@@ -53,15 +54,33 @@ fn one_number_of_several_is_shown_over_its_range() {
 fn a_channel_without_an_end_is_shown_over_what_it_is() {
     let wood = plant(vec![(quad(Vec3::ZERO, Vec3::X, Vec3::Y), Role::Wood, gray(0.2))], vec![]);
     let layer = layer(0, &[("_BRANCH_ARC", Array::scalars(vec![1.0, 2.0, 3.0, 5.0]))]);
-    let shown = false_colors(&wood, &[&layer], "_BRANCH_ARC").unwrap();
+    let shown = false_colors(&wood, &[&layer], "_BRANCH_ARC", None).unwrap();
     assert_eq!(shown.legend.kind, Key::Ramp(1.0, 5.0));
     assert_eq!(shown.colors[0][3], colors::ramp(1.0));
+}
+
+/// Beside each other the same color is the same value.
+#[test]
+fn two_pictures_have_one_key() {
+    let wood = plant(vec![(quad(Vec3::ZERO, Vec3::X, Vec3::Y), Role::Wood, gray(0.2))], vec![]);
+    let with = |data: [f32; 4]| layer(0, &[("_BRANCH_ARC", Array::scalars(data.to_vec()))]);
+    let (low, high) = (with([1.0, 2.0, 3.0, 5.0]), with([2.0, 4.0, 6.0, 10.0]));
+    let key = Key::Ramp(1.0, 10.0);
+    let shown = |layer| false_colors(&wood, &[layer], "_BRANCH_ARC", Some(&key)).unwrap();
+    assert_eq!((shown(&low).legend.kind, shown(&high).legend.kind), (key.clone(), key.clone()));
+    assert_eq!(shown(&low).colors[0][1], shown(&high).colors[0][0], "2 is 2");
+    assert_ne!(shown(&low).colors[0][3], shown(&high).colors[0][3], "5 is not 10, though each is its own greatest");
+    let params = ViewParams { channel: Some("_BRANCH_ARC".into()), ..frontal() };
+    let [a, b] = [[&low], [&high]];
+    let apart = comparison([(&wood, &a, "a"), (&wood, &b, "b")], &[], &params).unwrap();
+    let alike = comparison([(&wood, &a, "a"), (&wood, &a, "b")], &[], &params).unwrap();
+    assert_ne!(apart, alike);
 }
 
 #[test]
 fn petioles_are_as_long_as_they_are() {
     let tree = Recipe::small().grow();
-    let shown = false_colors(&tree, &[], "petiole-length").unwrap();
+    let shown = false_colors(&tree, &[], "petiole-length", None).unwrap();
     let lengths: Vec<f32> = tree.leaves().iter().map(|leaf| (leaf.center - leaf.petiole).length()).collect();
     let ends = [f32::min, f32::max].map(|pick| lengths.iter().copied().reduce(pick).unwrap());
     assert_eq!(shown.legend.kind, Key::Ramp(ends[0], ends[1]));
@@ -73,6 +92,6 @@ fn a_sheet_of_everything_holds_each_name_once() {
     let (leaf, layer) = weighted([[0.5; 4]; 4]);
     assert_eq!(shown_names(&leaf, &[&layer, &layer], false), ["role", "_WIND_WEIGHTS"]);
     let params = ViewParams { width_px: 96, height_px: 96, samples: 1, ..frontal() };
-    let sheet = channel_sheet(&leaf, &[&layer], "leaf", &params).unwrap();
+    let sheet = channel_sheet(&leaf, &[&layer], &[], "leaf", &params).unwrap();
     assert!(sheet.width() > 2 * 320 && sheet.width() < 4 * 320, "three panels of the least width: {}", sheet.width());
 }

@@ -164,8 +164,8 @@ fn a_bake_sheet_says_what_changed() {
     for (part, array) in tree.parts().iter().zip(dark) {
         baked.attributes.insert(AttributeKey { place: part.place, name: "_AMBIENT".into() }, array);
     }
-    let without = bake_sheet(&tree, &[], "tree", &small()).unwrap();
-    let with = bake_sheet(&tree, &[&baked], "tree", &small()).unwrap();
+    let without = bake_sheet(&tree, &[], &[], "tree", &small()).unwrap();
+    let with = bake_sheet(&tree, &[&baked], &[], "tree", &small()).unwrap();
     assert_eq!(without.width(), with.width());
     assert_eq!(without.height(), with.height());
     assert_ne!(without, with);

@@ -83,7 +83,7 @@ fn a_sheet_shows_two_suns_and_threads_change_no_byte() {
     let params = ViewParams { samples: 4, width_px: 24, height_px: 24, sun_azimuth_deg: 300.0, ..frontal() };
     let draw = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| png_bytes(&light_sheet(&leaf, &[&layer], "two", &params).unwrap()).unwrap())
+        pool.install(|| png_bytes(&light_sheet(&leaf, &[&layer], &[], "two", &params).unwrap()).unwrap())
     };
     assert_eq!(draw(1), draw(3));
 }
