@@ -1,10 +1,8 @@
 //! Optical depths by the chords of all balls, up to f32 rounding: for few places, for crowns of few balls, and
 //! where no lattice is fine enough. Along each axis of the sky balls fall into squares across it, and each
-//! place adds those within its reach, sixteen at a time, on whatever vector instructions the processor has.
-//!
-//! Each of the sixteen sums is the same sequence of IEEE operations whatever the width of the registers, and
-//! rustc fuses nothing: all paths give the same bits.
+//! place adds those within its reach ([`crate::chord_sums`]).
 
+use crate::chord_sums::{Balls, LANES, Runs};
 use crate::directions::AXES;
 use crate::field::Query;
 use crate::generators::Generator;
@@ -13,8 +11,6 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Balls side by side.
-const LANES: usize = 16;
 /// Edge of a square, in radii, and most squares for each ball.
 const SQUARE: f64 = 0.25;
 const SQUARES_PER_BALL: f64 = 2.0;
@@ -56,10 +52,7 @@ struct Shafts {
     rows: usize,
     /// First ball of each square, row after row, and their number at the end.
     starts: Vec<u32>,
-    across: [Vec<f32>; 2],
-    along: Vec<f32>,
-    weight: Vec<f32>,
-    group: Vec<u32>,
+    balls: Balls,
 }
 
 impl Shafts {
@@ -73,18 +66,8 @@ impl Shafts {
         let most = SQUARES_PER_BALL * (seen.len() as f64 + 1.0);
         let edge = SQUARE.max((extent.element_product() / most).sqrt()).max(extent.max_element() / most);
         let [columns, rows] = (extent / edge).to_array().map(|n| n as usize + 1);
-        let mut shafts = Shafts {
-            frame,
-            low,
-            edge,
-            columns,
-            rows,
-            starts: vec![0; columns * rows + 1],
-            across: [Vec::new(), Vec::new()],
-            along: Vec::new(),
-            weight: Vec::new(),
-            group: Vec::new(),
-        };
+        let mut shafts =
+            Shafts { frame, low, edge, columns, rows, starts: vec![0; columns * rows + 1], balls: Balls::default() };
         shafts.fill(balls, &seen);
         shafts
     }
@@ -99,37 +82,36 @@ impl Shafts {
         squares.iter().for_each(|&square| self.starts[square as usize + 1] += 1);
         (1..self.starts.len()).for_each(|i| self.starts[i] += self.starts[i - 1]);
         let padded = balls.len() + LANES;
-        for list in self.across.iter_mut().chain([&mut self.along, &mut self.weight]) {
+        let Balls { across, along, weight, group } = &mut self.balls;
+        for list in across.iter_mut().chain([&mut *along, &mut *weight]) {
             list.resize(padded, 0.0);
         }
-        self.group.resize(padded, 0);
+        group.resize(padded, 0);
         let mut next = self.starts.clone();
         for ((ball, p), square) in balls.iter().zip(seen).zip(squares) {
             let slot = &mut next[square as usize];
             let at = *slot as usize;
             *slot += 1;
-            (self.across[0][at], self.across[1][at], self.along[at]) = (p.x as f32, p.y as f32, p.z as f32);
-            (self.weight[at], self.group[at]) = (ball.weight, ball.group);
+            (across[0][at], across[1][at], along[at]) = (p.x as f32, p.y as f32, p.z as f32);
+            (weight[at], group[at]) = (ball.weight, ball.group);
         }
     }
 
     /// Appends the depths of queries, and counts the pairs.
-    #[cfg_attr(
-        target_arch = "x86_64",
-        expect(
-            unsafe_code,
-            reason = "run-time dispatch. Calling a function with target features is unsound only on a processor without \
-                      them; `depths`, the only caller, takes `isa` from the list of what the processor has."
-        )
-    )]
     fn sum(&self, queries: &[Query], radius: f64, isa: Isa, sums: &mut Vec<[f32; 2]>) -> u64 {
-        match isa {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => unsafe { sum_avx2(self, queries, radius, sums) },
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => unsafe { sum_avx512(self, queries, radius, sums) },
-            _ => sum_all(self, queries, radius, sums),
+        let (mut pairs, mut runs) = (0, Vec::new());
+        for query in queries {
+            let p = view(&self.frame, query.position / radius);
+            runs.clear();
+            runs.extend(self.touched(p.y, REACH, 1).map(|row| self.run(p, row)).filter(|run| !run.is_empty()));
+            pairs += runs.iter().map(|run| run.len() as u64).sum::<u64>();
+            let place = [p.x as f32, p.y as f32, p.z as f32];
+            let found = isa.dispatch(Runs { balls: &self.balls, runs: &runs, place, skip: query.skip });
+            let total = |lanes: &[f32; LANES]| lanes.iter().map(|&lane| f64::from(lane)).sum::<f64>();
+            let (whole, part) = (total(&found.whole), total(&found.part));
+            sums.push([(whole - part).max(0.0) as f32, (whole + part).max(0.0) as f32]);
         }
+        pairs
     }
 
     /// Squares along an axis that an interval touches.
@@ -153,69 +135,4 @@ impl Shafts {
 /// Coordinates across and along an axis.
 fn view(frame: &[DVec3; 3], place: DVec3) -> DVec3 {
     DVec3::new(place.dot(frame[0]), place.dot(frame[1]), place.dot(frame[2]))
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sum_avx2(shafts: &Shafts, queries: &[Query], radius: f64, sums: &mut Vec<[f32; 2]>) -> u64 {
-    sum_all(shafts, queries, radius, sums)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn sum_avx512(shafts: &Shafts, queries: &[Query], radius: f64, sums: &mut Vec<[f32; 2]>) -> u64 {
-    sum_all(shafts, queries, radius, sums)
-}
-
-#[inline(always)]
-fn sum_all(shafts: &Shafts, queries: &[Query], radius: f64, sums: &mut Vec<[f32; 2]>) -> u64 {
-    let mut pairs = 0;
-    for query in queries {
-        let p = view(&shafts.frame, query.position / radius);
-        let place = [p.x as f32, p.y as f32, p.z as f32];
-        let (mut whole, mut part) = ([0.0f32; LANES], [0.0f32; LANES]);
-        for row in shafts.touched(p.y, REACH, 1) {
-            let run = shafts.run(p, row);
-            pairs += run.len() as u64;
-            add_run(shafts, place, query.skip, run, (&mut whole, &mut part));
-        }
-        let total = |lanes: &[f32; LANES]| lanes.iter().map(|&lane| f64::from(lane)).sum::<f64>();
-        let (whole, part) = (total(&whole), total(&part));
-        sums.push([(whole - part).max(0.0) as f32, (whole + part).max(0.0) as f32]);
-    }
-    pairs
-}
-
-/// Adds the chords of a run of balls: half of each, and what lies between its middle and the place.
-#[inline(always)]
-fn add_run(
-    shafts: &Shafts,
-    place: [f32; 3],
-    skip: u32,
-    run: Range<usize>,
-    (whole, part): (&mut [f32; LANES], &mut [f32; LANES]),
-) {
-    for base in run.clone().step_by(LANES) {
-        let lanes = base..base + LANES;
-        let (x, y) = (&shafts.across[0][lanes.clone()], &shafts.across[1][lanes.clone()]);
-        let (along, group) = (&shafts.along[lanes.clone()], &shafts.group[lanes.clone()]);
-        let mut weights = [0.0f32; LANES];
-        weights.copy_from_slice(&shafts.weight[lanes]);
-        weights[(run.end - base).min(LANES)..].fill(0.0);
-        for lane in 0..LANES {
-            // A mask of bits, so that the loop has no branch and stays 32 bits wide.
-            let counts = 0u32.wrapping_sub(u32::from(group[lane] != skip));
-            let weight = f32::from_bits(weights[lane].to_bits() & counts);
-            let (dx, dy, from) = (place[0] - x[lane], place[1] - y[lane], place[2] - along[lane]);
-            let inside = 1.0 - (dx * dx + dy * dy);
-            let inside = if inside > 0.0 { inside } else { 0.0 };
-            let half = inside.sqrt();
-            let from = if from > half { half } else { from };
-            let from = if from < -half { -half } else { from };
-            // The integral of (1 - r^2)^2 along the chord, from its middle on.
-            let (squared, square) = (inside * inside, from * from);
-            whole[lane] += weight * (half * squared * (8.0 / 15.0));
-            part[lane] += weight * (from * (squared + square * (square * 0.2 - inside * (2.0 / 3.0))));
-        }
-    }
 }

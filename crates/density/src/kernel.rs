@@ -58,6 +58,23 @@ impl Isa {
     pub(crate) fn best() -> Isa {
         Isa::available().last().copied().unwrap_or(Isa::Plain)
     }
+
+    /// Runs something on these instructions, plainly where the processor lacks them.
+    pub(crate) fn dispatch<Op: pulp::WithSimd>(self, op: Op) -> Op::Output {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => match pulp::x86::V3::try_new() {
+                Some(simd) => pulp::Simd::vectorize(simd, op),
+                None => pulp::Simd::vectorize(pulp::Scalar128b, op),
+            },
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => match pulp::x86::V4::try_new() {
+                Some(simd) => pulp::Simd::vectorize(simd, op),
+                None => pulp::Simd::vectorize(pulp::Scalar128b, op),
+            },
+            _ => pulp::Simd::vectorize(pulp::Scalar128b, op),
+        }
+    }
 }
 
 /// A path that this processor was seen to have: only [`Path::new`] makes one.

@@ -5,6 +5,7 @@
 
 mod ambient;
 mod choose;
+mod chord_sums;
 mod chords;
 mod coarse;
 mod columns;
@@ -64,7 +65,7 @@ impl Baker for Density {
     }
 
     fn version(&self) -> u32 {
-        5
+        4
     }
 
     fn about(&self) -> &'static str {

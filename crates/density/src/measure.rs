@@ -11,13 +11,13 @@ use foliar_schema::{MeasuredError, channel, names};
 use rayon::prelude::*;
 
 /// Places of a sample.
-const PLACES: usize = 2048;
+const PLACES: usize = 4096;
 /// Most chords that are summed in f64.
 const MOST_CHORDS: usize = 1 << 22;
 /// Fewest places of a sample.
 const FEWEST: usize = 8;
 
-/// Indices of up to 2,048 of `count` places, evenly spread over the list.
+/// Indices of up to 4,096 of `count` places, evenly spread over the list.
 pub(crate) fn sample(count: usize) -> Vec<usize> {
     spread(count, PLACES)
 }

@@ -120,7 +120,7 @@ pub struct Params {
     pub normals: NormalMode,
     /// Which channels are written.
     pub channels: Channels,
-    /// Error of each channel, rms over 2,048 places, in its visible steps: 1 cannot be seen, 4 is a preview;
+    /// Error of each channel, rms over 4,096 places, in its visible steps: 1 cannot be seen, 4 is a preview;
     /// nothing said: what the scene asks for.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub quality: Option<f64>,

@@ -78,10 +78,10 @@ impl<'a> Sky<'a> {
         // Neighbors in space read the same part of a lattice: each place's answer is its own, whatever the order.
         let cells = CELLS_PER_RADIUS / self.foliage.radius;
         let order = order::in_space(queries.len(), |at| Some(queries[at].position * cells));
-        let queries: Vec<Query> = order.par_iter().map(|&(_, at)| queries[at as usize]).collect();
+        let order: Vec<u32> = order.into_iter().map(|(_, at)| at).collect();
         let scale = extinction(self.foliage.mean_area, self.foliage.radius);
-        let depths: Vec<chords::Depths> = self.media.iter().map(|m| m.depths(self, &queries, &axes)).collect();
-        let sample = |(index, query): (usize, &Query)| {
+        let depths: Vec<chords::Depths> = self.media.iter().map(|m| m.depths(self, queries, &order, &axes)).collect();
+        let sample = |(index, at): (usize, &u32)| {
             let mut sums = [0.0f64; DIRECTIONS];
             for medium in &depths {
                 for (axis, depths) in medium.axes.iter().enumerate() {
@@ -89,25 +89,29 @@ impl<'a> Sky<'a> {
                     sums[axis + AXES] += scale * f64::from(depths[index][1]);
                 }
             }
-            (order[index].1, see(&sums, &directions, query.position))
+            see(&sums, &directions, queries[*at as usize].position)
         };
-        let mut samples: Vec<(u32, SkySample)> = queries.par_iter().enumerate().map(sample).collect();
-        samples.par_sort_unstable_by_key(|sample| sample.0);
-        let samples = samples.into_iter().map(|sample| sample.1).collect();
+        let sorted: Vec<SkySample> = order.par_iter().enumerate().map(sample).collect();
+        let mut samples = sorted.clone();
+        order.iter().zip(sorted).for_each(|(at, sample)| samples[*at as usize] = sample);
         (samples, depths.iter().map(|depths| depths.pairs).sum())
     }
 }
 
 impl Medium<'_> {
-    /// Depths in radii toward both ends of each axis, without the balls that each query leaves out.
-    fn depths(&self, sky: &Sky, queries: &[Query], axes: &[DVec3; AXES]) -> chords::Depths {
+    /// Depths in radii toward both ends of each axis, without the balls that each query leaves out; in this order.
+    fn depths(&self, sky: &Sky, queries: &[Query], order: &[u32], axes: &[DVec3; AXES]) -> chords::Depths {
         let radius = sky.foliage.radius;
         let Some((lattice, density)) = &self.lattice else {
-            return chords::depths(self.balls, radius, queries, axes, sky.isa);
+            let queries: Vec<Query> = order.par_iter().map(|at| queries[*at as usize]).collect();
+            return chords::depths(self.balls, radius, &queries, axes, sky.isa);
         };
+        // Groups are found in the order of the list, in which neighbors share them.
         let own: Vec<&[Generator]> = self.groups.of_each(queries);
+        let own: Vec<&[Generator]> = order.par_iter().map(|at| own[*at as usize]).collect();
         let per_radius = 1.0 / radius;
-        let spots: Vec<Spot> = queries.par_iter().map(|query| lattice.spot(query.position * per_radius)).collect();
+        let spots: Vec<Spot> =
+            order.par_iter().map(|at| lattice.spot(queries[*at as usize].position * per_radius)).collect();
         let along = |toward: &DVec3| {
             let columns = Columns::new(lattice, density, *toward);
             let depths = |(spot, own): (&Spot, &&[Generator])| {

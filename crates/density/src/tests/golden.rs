@@ -7,11 +7,11 @@ use foliar_plant::sample::Recipe;
 use serde_json::{Value, json};
 
 /// The version that these statistics are of.
-const VERSION: u32 = 5;
+const VERSION: u32 = 4;
 /// Of each bake: weighted means of k_a and of the normals' coordinates.
 const GOLDEN: [(&str, f64, f64); 4] = [
     ("sky", 1.477_291_468_200_254_3, 0.054_475_630_643_138_345),
-    ("luft", 1.116_719_186_467_585_2, 0.053_999_724_979_046_82),
+    ("luft", 1.116_719_186_467_585_2, 0.053_937_235_336_851_096),
     ("lattices", 1.488_552_366_557_897_7, 0.005_364_939_446_592_492),
     ("surface", 1.476_988_565_835_966_7, -0.062_333_102_368_644_35),
 ];
