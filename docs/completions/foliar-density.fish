@@ -34,7 +34,7 @@ surface\t'Normal of the closest point of the implicit surface, cavities left out
 complete -c foliar-density -l channels -d 'Which channels are written. [default "both"]' -r -f -a "both\t'`_AMBIENT` and `_SOFT_NORMAL`.'
 ambient\t'`_AMBIENT` only.'
 normals\t'`_SOFT_NORMAL` only.'"
-complete -c foliar-density -l quality -d 'Error of each channel, rms over 2,048 places, in its visible steps: 1 cannot be seen, 4 is a preview; nothing said: what the scene asks for. [above 0]' -r
+complete -c foliar-density -l quality -d 'Error of each channel, rms over 4,096 places, in its visible steps: 1 cannot be seen, 4 is a preview; nothing said: what the scene asks for. [above 0]' -r
 complete -c foliar-density -l neighbor -d 'Plants around this one, `FILE@x,y,z[,yaw_deg[,scale]]` each: where the origin of FILE stands, meters in the rest frame of the plant being baked. They darken and turn normals, and are no part of the median density.' -r
 complete -c foliar-density -l blend -d 'Share of the original normal in the realigned one (Luft07 section 4). [at least 0, at most 1, default 0.0]' -r
 complete -c foliar-density -l surface-cell-m -d 'Edge of a cell of the implicit surface, meters; nothing said: a quarter of the radius of influence. [meters, above 0]' -r
