@@ -306,10 +306,13 @@ impl Sheet {
 /// Whether floats are normals themselves, not half of n + 1: where any is negative, or where they are nearer to unit length
 /// as they stand (a flat leaf is 0, 0, 1). Texels of nothing but 0 say nothing.
 fn are_signed(data: &[f32], channels: usize) -> bool {
+    if data.par_iter().any(|v| *v < 0.0) {
+        return true;
+    }
     let off = |n: [f32; 3]| f64::from((n.iter().map(|v| v * v).sum::<f32>().sqrt() - 1.0).abs());
     let texels = data.chunks_exact(channels).map(|t| [t[0], t[1], t[2]]).filter(|n| n.iter().any(|v| *v != 0.0));
     let sums = texels.fold([0.0; 2], |[own, half], n| [own + off(n), half + off(n.map(|v| 2.0 * v - 1.0))]);
-    data.iter().any(|v| *v < 0.0) || sums[0] <= sums[1]
+    sums[0] <= sums[1]
 }
 
 /// Mean color of the texels that belong to the leaf.
