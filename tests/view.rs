@@ -1,6 +1,6 @@
 //! `foliar-view`: pictures of what a file holds.
 
-use crate::common::{FOLIAR, VIEW, folder, output, run, text, tree};
+use crate::common::{FOLIAR, TRANSLUCENCY, VIEW, folder, output, run, text, tree};
 
 const SMALL: [&str; 6] = ["--width-px", "64", "--height-px", "48", "--samples", "1"];
 
@@ -97,4 +97,53 @@ fn a_channel_that_is_not_there_and_a_bad_ending_are_refused() {
     run(VIEW, &[text(&obj), "-o", text(&picture), "--channel", "_WIND_WEIGHTS"])
         .expect(2, &["_WIND_WEIGHTS", "layers hold"]);
     run(VIEW, &[text(&obj), "-o", "x.jpg"]).expect(2, &["must end in .png"]);
+}
+
+/// A leaf's own layer is shown lit from behind; beside another bake, what differs.
+#[test]
+fn a_leaf_is_drawn_lit_from_behind() {
+    let here = folder();
+    crate::translucency::thickness(here.path(), "t.png", 24, 0.1);
+    for (name, nm) in [("a.layer", "510"), ("b.layer", "550")] {
+        let flags = ["--thickness", "t.png", "--wavelength-nm", nm, "-o", name];
+        crate::common::run_in(here.path(), TRANSLUCENCY, &crate::translucency::with_flags(&flags)).expect(0, &[]);
+    }
+    let draw = |name: &str, more: &[&str]| {
+        let flags = [&["a.layer", "-o", name], more].concat();
+        crate::common::run_in(here.path(), VIEW, &flags).expect(0, &[]);
+        image::open(here.path().join(name)).unwrap().to_rgba8()
+    };
+    let (alone, same, other) =
+        (draw("x.png", &[]), draw("y.png", &["--against", "a.layer"]), draw("z.png", &["--against", "b.layer"]));
+    assert!(alone.width() > 300 && same != other, "another wavelength lets other light through");
+    crate::common::run_in(here.path(), VIEW, &["none.layer", "-o", "n.png"]).expect(3, &["none.layer"]);
+    assert!(!here.path().join("n.png").exists());
+}
+
+/// Exposure scales what is seen; a trunk of 45 m has a bar of its size and a person that is a speck.
+#[test]
+fn exposure_and_scale_are_what_they_say() {
+    let here = folder();
+    let obj = tree(here.path(), 40);
+    let drawn = |input: &str, more: &[&str]| {
+        let picture = here.path().join("x.png");
+        run(VIEW, &[&[input, "-o", text(&picture)], &SMALL[..], more].concat()).expect(0, &[]);
+        image::open(picture).unwrap().to_rgb8()
+    };
+    let mean = |exposure: &str| {
+        let seen = drawn(text(&obj), &["--exposure", exposure, "--background", "black", "--ground", "none"]);
+        seen.pixels().map(|p| u64::from(p.0[1])).sum::<u64>()
+    };
+    let (dim, plain, bright) = (mean("0.5"), mean("1"), mean("2"));
+    assert!(dim < plain && plain < bright, "{dim} {plain} {bright}");
+    let trunk = here.path().join("trunk.obj");
+    let ring =
+        |y: &str| ["-1 Y -1", "1 Y -1", "1 Y 1", "-1 Y 1"].map(|p| format!("v {}\n", p.replace('Y', y))).concat();
+    let sides = "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    std::fs::write(&trunk, ring("0") + &ring("45") + sides).unwrap();
+    let [with, without] =
+        ["person", "bar"].map(|scale| drawn(text(&trunk), &["--scale", scale, "--unit", "m", "--up", "y"]));
+    let changed = with.pixels().zip(without.pixels()).filter(|(a, b)| a != b).count();
+    // A person of 1.7 m beside 45 m is a twenty-sixth of the height: two pixels of 48; the rest is its words and the bar.
+    assert!((1..64 * 48 / 8).contains(&changed), "{changed} pixels");
 }

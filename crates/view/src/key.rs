@@ -19,19 +19,19 @@ pub(crate) struct Legend {
 /// How colors stand for values.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Key {
-    /// [`colors::ramp`] from the first number to the second.
+    /// [`crate::colors::ramp`] from the first number to the second.
     Ramp(f32, f32),
-    /// [`colors::diverging`] from minus this number to plus this number.
+    /// [`crate::colors::diverging`] from minus this number to plus this number.
     Diverging(f32),
-    /// [`colors::of_direction`].
+    /// [`crate::colors::of_direction`].
     Direction,
     /// Components as red, green and blue, each over its range: names, least and greatest.
     Box([&'static str; 3], [f32; 3], [f32; 3]),
-    /// [`colors::ramp`] over whole numbers, from the first to the second.
+    /// [`crate::colors::ramp`] over whole numbers, from the first to the second.
     Steps(i32, i32),
-    /// [`colors::of_id`]; so many ids.
+    /// [`crate::colors::of_id`]; so many ids.
     Ids(usize),
-    /// [`colors::of_role`].
+    /// [`crate::colors::of_role`].
     Roles,
 }
 

@@ -133,8 +133,12 @@ impl<'a> Side<'a> {
     }
 }
 
+/// Small maps are magnified by a whole number: every texel stays a sharp square, and words fit below.
 fn picture(columns: usize, bytes: Vec<u8>) -> RgbaImage {
-    RgbaImage::from_raw(columns as u32, (bytes.len() / 4 / columns.max(1)) as u32, bytes).unwrap_or_default()
+    let (width, height) = (columns as u32, (bytes.len() / 4 / columns.max(1)) as u32);
+    let small = RgbaImage::from_raw(width, height, bytes).unwrap_or_default();
+    let times = (WIDEST as u32 / width.max(height).max(1)).max(1);
+    image::imageops::resize(&small, width * times, height * times, image::imageops::FilterType::Nearest)
 }
 
 /// Toward a light behind the leaf, in the frame of its map.

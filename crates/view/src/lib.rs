@@ -19,6 +19,7 @@ mod scale;
 mod scene;
 mod shade;
 mod sheet;
+mod skins;
 mod sway;
 mod text;
 mod texture;

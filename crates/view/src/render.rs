@@ -230,7 +230,11 @@ impl<'a> Tracer<'a> {
         let mut sun = shade::sunlit(&surface, self.sun);
         if sun > 0.0 && !self.scene.stock {
             let lift = if surface.flat.dot(self.sun) < 0.0 { -surface.flat } else { surface.flat };
-            let from = beam.origin + beam.direction * hit.distance + lift * LIFT;
+            let place = beam.origin + beam.direction * hit.distance;
+            // Near its own edge of shadow a smooth body has triangles that the sun does not see, and that are lit all the same.
+            let outward = if surface.flat.dot(surface.normal) < 0.0 { -surface.flat } else { surface.flat };
+            let round = self.scene.rounded(hit, place, outward).filter(|_| surface.normal.dot(self.sun) > 0.0);
+            let from = round.map_or(place + lift * LIFT, |round| round + outward * LIFT);
             if !self.sun_reaches(pixel, 0, index, from) {
                 sun = 0.0;
             }

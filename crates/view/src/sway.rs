@@ -21,8 +21,8 @@ const PUSH: f64 = 0.3;
 /// Where the wind blows to: across the default view.
 const TOWARD: DVec2 = DVec2::new(0.8, -0.6);
 
-/// `frames` pictures of the plant in wind, so many seconds apart; what stands around it stands still. The plant must have its branches and `layers` the
-/// wind room's.
+/// `frames` pictures of the plant in wind, so many seconds apart; what stands around it stands still. The plant must have
+/// its branches and `layers` the wind room's.
 ///
 /// # Errors
 /// [`ViewError::Channel`] where nothing was baked that moves; else as [`crate::render()`].
@@ -40,17 +40,26 @@ pub fn swaying(
     let player = Player::new(plant, layer).ok_or_else(none)?;
     let noise = noise().ok_or_else(none)?;
     let at = |frame: u32| player.gust(amplitude(strength), f64::from(frame) * apart_s, TOWARD, PUSH);
-    let moved: Option<Vec<Plant>> = (0..frames.max(1)).map(|frame| player.moved_plant(&at(frame), &noise)).collect();
-    let moved = moved.ok_or_else(none)?;
-    let frame = Frame::around(plant, around);
-    let scenes: Result<Vec<Scene>, ViewError> =
-        moved.iter().map(|plant| Scene::within(&frame, (plant, layers), around, (shading, None), None)).collect();
-    let scenes = scenes?;
+    let still = Frame::around(plant, around);
+    // One scene at a time: hundreds fill any memory.
+    let each = |seen: &mut dyn FnMut(&Scene) -> Result<(), ViewError>| {
+        (0..frames.max(1)).try_for_each(|frame| {
+            let moved = player.moved_plant(&at(frame), &noise).ok_or_else(none)?;
+            seen(&Scene::within(&still, (&moved, layers), around, (shading, None), None)?)
+        })
+    };
     // One camera for all, or the plant would stand still and the world sway.
-    let points: Vec<Vec3> = scenes.iter().flat_map(|scene| scene.fitted.iter().copied()).collect();
-    let camera = Camera::fit(points.iter().copied(), &frame, params);
-    let draw = |scene: &Scene| render::draw(scene, camera, shading, params);
-    scenes.iter().map(draw).collect()
+    let (mut points, mut pictures): (Vec<Vec3>, Vec<RgbaImage>) = Default::default();
+    each(&mut |scene| {
+        points.extend(&scene.fitted);
+        Ok(())
+    })?;
+    let camera = Camera::fit(points.iter().copied(), &still, params);
+    each(&mut |scene| {
+        pictures.push(render::draw(scene, camera, shading, params)?);
+        Ok(())
+    })?;
+    Ok(pictures)
 }
 
 /// A sheet: weights of the levels, phases, and the plant in wind at several times.
