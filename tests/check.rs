@@ -25,7 +25,9 @@ fn a_broken_file_is_reported_and_only_an_unreadable_one_is_status_3() {
     assert!(said.contains("error[FILE-BROKEN] cut.glb"), "{said}");
     let said = run_in(here.path(), CHECK, &["bad.obj"]).expect(1, &[]).stdout;
     assert!(said.contains("error[GEOMETRY-NAN] bad.obj, line 3"), "{said}");
-    run_in(here.path(), CHECK, &["none.glb"]).expect(3, &["none.glb: cannot be read"]);
+    run_in(here.path(), CHECK, &["none.glb"]).expect(3, &["none.glb: cannot be read", "name a readable file"]);
+    std::fs::create_dir(here.path().join("folder.glb")).unwrap();
+    run_in(here.path(), CHECK, &["folder.glb"]).expect(3, &["folder.glb: cannot be read", "name a readable file"]);
     run_in(here.path(), CHECK, &["bad.obj", "none.glb"]).expect(5, &["1 of 2"]);
 }
 

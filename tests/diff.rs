@@ -57,5 +57,5 @@ fn maps_are_told_and_compared() {
     assert!(found.stdout.contains("TEXTURE-BROKEN") && found.stdout.contains("is no EXR"), "{found:?}");
     std::fs::remove_file(&side).unwrap();
     let found = run(CHECK, &[text(&one)]);
-    assert!(found.stdout.contains("TEXTURE-MISSING") && found.stdout.contains("not beside the file"), "{found:?}");
+    assert!(found.stdout.contains("TEXTURE-MISSING") && found.stdout.contains("is not there"), "{found:?}");
 }

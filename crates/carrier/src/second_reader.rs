@@ -12,6 +12,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use tables::Table;
 
+pub use maps::maps_beside;
+
 /// What a file was found to hold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {

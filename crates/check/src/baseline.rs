@@ -3,12 +3,13 @@
 use foliar_schema::Finding;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
 
 /// One known finding. Its words are left out: numbers in them change with every export.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Known {
-    /// The file as it was named, with `/` between folders.
+    /// The file from the folder of the baseline on, with `/` between folders, so that a checkout elsewhere matches.
     file: String,
     code: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -16,24 +17,39 @@ struct Known {
 }
 
 impl Known {
-    fn of(finding: &Finding) -> Self {
-        let file = finding.file.as_deref().unwrap_or_default();
+    fn of(finding: &Finding, home: &Path) -> Self {
         Known {
-            file: file.replace('\\', "/").trim_start_matches("./").to_owned(),
+            file: relative(finding.file.as_deref().unwrap_or_default(), home),
             code: finding.code.clone(),
             place: finding.place.clone().unwrap_or_default(),
         }
     }
 }
 
-impl Known {
-    /// Whether it is the same finding, of a checkout that may lie elsewhere: one path must be the end of the other.
-    fn is(&self, other: &Known) -> bool {
-        let ends =
-            |long: &str, end: &str| long.strip_suffix(end).is_some_and(|rest| rest.is_empty() || rest.ends_with('/'));
-        let same = ends(&self.file, &other.file) || ends(&other.file, &self.file);
-        same && self.code == other.code && self.place == other.place
+/// A path from a folder on; as it stands where nothing leads there, as from one drive to another.
+fn relative(file: &str, home: &Path) -> String {
+    let file = file.replace('\\', "/");
+    let (to, from) = (plain(Path::new(&file)), plain(home));
+    let shared = to.components().zip(from.components()).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return file;
     }
+    let up = from.components().skip(shared).map(|_| "..".to_owned());
+    let down = to.components().skip(shared).map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+/// An absolute path without `.` and `..`.
+fn plain(path: &Path) -> PathBuf {
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    whole.components().fold(PathBuf::new(), |mut plain, part| {
+        match part {
+            Component::ParentDir => _ = plain.pop(),
+            Component::CurDir => {}
+            part => plain.push(part),
+        }
+        plain
+    })
 }
 
 /// Known findings, each as often as it is known.
@@ -41,10 +57,10 @@ impl Known {
 pub struct Baseline(BTreeMap<Known, usize>);
 
 impl Baseline {
-    /// A baseline of all these findings.
-    pub fn of<'a>(findings: impl IntoIterator<Item = &'a Finding>) -> Self {
+    /// A baseline of all these findings, to be kept in the folder `home`.
+    pub fn of<'a>(findings: impl IntoIterator<Item = &'a Finding>, home: &Path) -> Self {
         let mut known = BTreeMap::new();
-        findings.into_iter().for_each(|finding| *known.entry(Known::of(finding)).or_default() += 1);
+        findings.into_iter().for_each(|finding| *known.entry(Known::of(finding, home)).or_default() += 1);
         Baseline(known)
     }
 
@@ -67,14 +83,16 @@ impl Baseline {
         if lines.is_empty() { "[]\n".into() } else { format!("[\n  {}\n]\n", lines.join(",\n  ")) }
     }
 
-    /// The findings that are new, and how many are known.
-    pub fn filter(&self, findings: Vec<Finding>) -> (Vec<Finding>, usize) {
+    /// The findings that are new, and how many are known; the baseline lies in the folder `home`.
+    pub fn filter(&self, findings: Vec<Finding>, home: &Path) -> (Vec<Finding>, usize) {
         let mut left = self.0.clone();
         let total = findings.len();
-        let is_new = |finding: &Finding| {
-            let own = Known::of(finding);
-            let times = left.iter_mut().find(|(known, times)| **times > 0 && known.is(&own)).map(|(_, times)| times);
-            times.map(|times| *times -= 1).is_none()
+        let is_new = |finding: &Finding| match left.get_mut(&Known::of(finding, home)) {
+            Some(times) if *times > 0 => {
+                *times -= 1;
+                false
+            }
+            _ => true,
         };
         let new: Vec<Finding> = findings.into_iter().filter(is_new).collect();
         let known = total - new.len();
@@ -93,16 +111,21 @@ mod tests {
 
     #[test]
     fn what_is_known_is_left_out_as_often_as_it_is_known() {
-        let baseline = Baseline::of(&[finding("/a", "x/tree.glb")]);
+        let baseline = Baseline::of(&[finding("/a", "/a/repo/x/tree.glb")], Path::new("/a/repo/ci"));
         let again = Baseline::parse(&baseline.to_text()).unwrap();
         assert_eq!(again, baseline);
-        let (new, known) =
-            again.filter(vec![finding("/a", "/c/x/tree.glb"), finding("/a", "tree.glb"), finding("/b", "x/tree.glb")]);
-        assert_eq!((new.len(), known), (2, 1), "{new:?}");
+        assert!(baseline.to_text().contains("\"../x/tree.glb\""), "{}", baseline.to_text());
+        // Another checkout, whichever way the file is named there.
+        let home = Path::new("/build/repo/ci");
+        let [whole, turning] = ["/build/repo/x/tree.glb", "/build/repo/ci/../y/../x/./tree.glb"];
+        for file in [whole, turning] {
+            let (new, known) = again.filter(vec![finding("/a", file), finding("/a", file), finding("/b", file)], home);
+            assert_eq!((new.len(), known), (2, 1), "{new:?}");
+        }
         // Another folder is another tree, and so is a longer name.
-        let (new, known) = again.filter(vec![finding("/a", "y/tree.glb"), finding("/a", "x/old-tree.glb")]);
-        assert_eq!((new.len(), known), (2, 0), "{new:?}");
-        assert_eq!(again.filter(vec![finding("/a", ".\\x\\tree.glb")]).1, 1);
+        let others = ["/build/repo/y/tree.glb", "/build/repo/x/old-tree.glb", "/build/tree.glb"];
+        let (new, known) = again.filter(others.map(|file| finding("/a", file)).into(), home);
+        assert_eq!((new.len(), known), (3, 0), "{new:?}");
         assert!(Baseline::parse("{}").unwrap_err().contains("--write-baseline"));
         assert_eq!(Baseline::parse(&Baseline::default().to_text()), Ok(Baseline::default()));
     }

@@ -8,8 +8,8 @@ use foliar_schema::{CHANNELS, Finding, Import, LATER_ROOMS, ROOMS, code, names};
 use glam::{DVec3, Vec3};
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::io::Read;
-use std::path::Path;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
 
 /// A leaf may lie this far outside the plant's box, over the box's diagonal: rounding, and centers of curled leaves.
 const OUTSIDE: f64 = 0.01;
@@ -48,7 +48,7 @@ impl Required {
 }
 
 /// Checks a master; rooms of its records.
-pub(crate) fn check(subject: &Subject, folder: &Path, report: &mut Report) -> Vec<String> {
+pub(crate) fn check(subject: &Subject, report: &mut Report) -> Vec<String> {
     let seen = subject.seen;
     let root = seen.document.json.get("extensions").and_then(|e| e.get(names::EXTENSION));
     if root.is_none() && seen.foliage().is_some() {
@@ -62,7 +62,6 @@ pub(crate) fn check(subject: &Subject, folder: &Path, report: &mut Report) -> Ve
     let Some(buffer) = seen.document.buffers.first().filter(|_| !report.has(&code::FILE_COMPRESSED)) else {
         return Vec::new();
     };
-    beside(seen, folder, report);
     let (summary, problems) = second_reader::problems(&seen.document.json, buffer);
     for problem in problems {
         report.say(problem.code, problem.place, problem.text);
@@ -73,28 +72,41 @@ pub(crate) fn check(subject: &Subject, folder: &Path, report: &mut Report) -> Ve
     summary.rooms
 }
 
-/// Maps that lie beside the file: whether they do, and are what their names say. Their headers alone are read.
-fn beside(seen: &Survey, folder: &Path, report: &mut Report) {
-    const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
-    let sheets = seen.foliage().and_then(|root| root[names::ROOM_TRANSLUCENCY].as_object());
-    for (sheet, links) in sheets.into_iter().flatten() {
-        for (map, link) in links["maps"].as_object().into_iter().flatten() {
-            let Some(uri) = link["exr"].as_str() else { continue };
-            let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy().into_owned();
-            let mut head = [0; 4];
-            let opened = std::fs::File::open(folder.join(&name));
-            let place = format!("map {sheet}/{map}");
-            match opened.and_then(|mut file| file.read_exact(&mut head)) {
-                Ok(()) if head == EXR => {}
-                Ok(()) => report.say(&code::TEXTURE_BROKEN, place, format!("{name} is no EXR: bake again")),
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                    let message = format!("{name} is not beside the file: put it there, or bake again");
-                    report.say(&code::TEXTURE_MISSING, place, message);
-                }
-                Err(error) => report.say(&code::TEXTURE_BROKEN, place, format!("{name} cannot be read: {error}")),
+/// Maps that lie beside the file: whether they do, and are what their names say. Their headers alone are read. Gives their
+/// paths, there or not.
+pub(crate) fn beside(seen: &Survey, folder: &Path, import: &Import, report: &mut Report) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for (sheet, map, uri) in second_reader::maps_beside(seen.foliage().unwrap_or(&Value::Null)) {
+        let place = format!("map {sheet}/{map}");
+        match foliar_carrier::paths::resolve(uri, folder, &import.search, report.file) {
+            Err(error) => report.say(&code::TEXTURE_BROKEN, place, error.to_string()),
+            Ok(file) => {
+                let (code, problem) = match is_exr(&file) {
+                    Ok(true) => (&code::TEXTURE_BROKEN, None),
+                    Ok(false) => (&code::TEXTURE_BROKEN, Some("is no EXR: bake again".into())),
+                    Err(error) if error.kind() == ErrorKind::NotFound => {
+                        (&code::TEXTURE_MISSING, Some("is not there: put it beside the file, or bake again".into()))
+                    }
+                    Err(error) => (&code::TEXTURE_BROKEN, Some(format!("cannot be read: {error}: make it readable"))),
+                };
+                problem.into_iter().for_each(|text| report.say(code, &place, format!("{} {text}", file.display())));
+                files.push(file);
             }
         }
     }
+    files
+}
+
+/// Whether a file begins as an EXR does.
+fn is_exr(file: &Path) -> std::io::Result<bool> {
+    const HEAD: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+    // A pipe would be waited for.
+    if !std::fs::metadata(file)?.is_file() {
+        return Ok(false);
+    }
+    let mut head = Vec::new();
+    std::fs::File::open(file)?.take(HEAD.len() as u64).read_to_end(&mut head)?;
+    Ok(head == HEAD)
 }
 
 /// Values of channels of a file whose extension a tool dropped: what they may be still holds, whatever form they have.

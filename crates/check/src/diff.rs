@@ -3,7 +3,7 @@
 use foliar_bake::{Array, Layer};
 use foliar_numerics::ErrorStats;
 use foliar_plant::Place;
-use foliar_schema::{Channel, Column, RASTERS, Role, channel, column, names};
+use foliar_schema::{Channel, Column, Role, channel, column, names, raster};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -114,11 +114,11 @@ fn roles(a: &[Layer], b: &[Layer]) -> Option<Difference> {
 
 /// Pictures that are passed on: the same bytes, or others.
 fn pictures(a: &[Layer], b: &[Layer]) -> Vec<Difference> {
-    let of = |layers: &'_ [Layer]| -> BTreeMap<Key, Vec<u8>> {
+    fn of(layers: &[Layer]) -> BTreeMap<Key, &Vec<u8>> {
         let all =
             layers.iter().flat_map(|layer| layer.pictures.iter().map(move |picture| (&layer.record.room, picture)));
-        all.map(|(room, (name, bytes))| ((room.clone(), format!("picture {name}")), bytes.clone())).collect()
-    };
+        all.map(|(room, (name, bytes))| ((room.clone(), format!("picture {name}")), bytes)).collect()
+    }
     let (a, b) = (of(a), of(b));
     let keys: BTreeSet<&Key> = a.keys().chain(b.keys()).collect();
     let problem = |key| match (a.get(key), b.get(key)) {
@@ -236,8 +236,8 @@ impl Measure {
             Some(channel) if channel.optical_depth => Measure::Depth(channel.visible_step),
             Some(channel) => Measure::Length(channel.visible_step),
             None if name.starts_with(MAP) => {
-                let own = name.rsplit('/').next();
-                let step = RASTERS.iter().find(|info| Some(info.name) == own).map(|info| info.visible_step);
+                let own = name.strip_prefix(MAP).and_then(|name| name.rsplit('/').next());
+                let step = own.and_then(raster).map(|info| info.visible_step);
                 Measure::Length(step.filter(|step| *step > 0.0).unwrap_or(MAP_STEP))
             }
             None if of_column(name).is_some_and(|column| column.optical_depth) => {
@@ -352,6 +352,16 @@ mod tests {
         let found = diff(&[with(0.25, 1)], &[with(0.5, 2)]);
         let map = found.iter().find(|d| d.name.starts_with("map ")).unwrap();
         assert!(map.exceeds(1.0) && map.worst[0].place.ends_with("texel 1"), "{found:?}");
+        // A step of a map that belongs to no tree is its own, too.
+        let scan = |value: f32| {
+            let mut layer = Layer::default();
+            let raster = foliar_bake::FloatRaster { width: 1, height: 1, channels: 1, data: vec![value] };
+            layer.rasters.insert(names::MAP_THICKNESS.into(), raster);
+            layer
+        };
+        let step = raster(names::MAP_THICKNESS).unwrap().visible_step;
+        let found_scan = diff(&[scan(0.2)], &[scan(0.2 + 3.0 * step as f32)]);
+        assert!((found_scan[0].max_steps - 3.0).abs() < 1e-2, "{found_scan:?}");
         let picture = found.iter().find(|d| d.name.starts_with("picture ")).unwrap();
         assert_eq!(picture.problem.as_deref(), Some("another picture"));
     }

@@ -86,13 +86,14 @@ pub fn check(
     materials::check(&subject, &facts, &mut report);
     plant::check(&subject, &mut report);
     required.check(&seen, &mut report);
-    let rooms = contract::check(&subject, folder, &mut report);
+    let rooms = contract::check(&subject, &mut report);
     if let Some(master) = master {
         lost::compare(&seen, master, &mut report);
     }
+    let beside = contract::beside(&seen, folder, &settings.import, &mut report);
     let mut checked = Checked {
         findings: Vec::new(),
-        files: seen.files.clone(),
+        files: seen.files.iter().cloned().chain(beside).collect(),
         triangles: seen.base.parts.iter().map(|part| part.triangles.len()).sum(),
         pictures: seen.pictures.len(),
         rooms,

@@ -106,10 +106,11 @@ pub(crate) fn rounding(links: &SheetLinks) -> Option<Finding> {
     let share = link.rms_error / link.mean_scale.max(f64::MIN_POSITIVE);
     let message = format!(
         "{name} in 8 bits is off by {:.2e} of the light that falls on the leaf, rms, and {:.2e} at most: {:.2} % of the \
-         brightest mean transmission",
+         brightest mean transmission; {}",
         link.rms_error,
         link.max_error,
-        100.0 * share
+        100.0 * share,
+        if link.exr.is_some() { "the EXR beside it has every bit" } else { "write an EXR to keep every bit" }
     );
     Some(Finding::new(&code::MAP_ROUNDED, message))
 }

@@ -94,23 +94,30 @@ impl Master<'_> {
 
     /// What lies beside the file says what the 8 bits in it say, to the error that is stated.
     pub fn sides(&self, path: &Path) -> Result<(), String> {
-        let sheets = &self.json["extensions"][names::EXTENSION][names::ROOM_TRANSLUCENCY];
-        for (_, links) in sheets.as_object().into_iter().flatten() {
-            for (map, link) in links["maps"].as_object().into_iter().flatten() {
-                let Some(uri) = link["exr"].as_str() else { continue };
-                let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy().into_owned();
-                let file = path.with_file_name(&name);
-                let texels = exact(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-                if let Some(texture) = link["texture"].as_str() {
-                    let texture = self.texture(texture)?;
-                    let size = (texture.width, texture.height);
-                    ensure(size == texels.0, || format!("{map}: {size:?} in the file, {:?} beside it", texels.0))?;
-                    agree(&texture, &texels.1, link).map_err(|e| format!("{map}: {e}"))?;
-                }
+        let root = &self.json["extensions"][names::EXTENSION];
+        for (sheet, map, uri) in maps_beside(root) {
+            let link = &root[names::ROOM_TRANSLUCENCY][sheet]["maps"][map];
+            let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy().into_owned();
+            let file = path.with_file_name(&name);
+            let texels = exact(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+            if let Some(texture) = link["texture"].as_str() {
+                let texture = self.texture(texture)?;
+                let size = (texture.width, texture.height);
+                ensure(size == texels.0, || format!("{map}: {size:?} in the file, {:?} beside it", texels.0))?;
+                agree(&texture, &texels.1, link).map_err(|e| format!("{map}: {e}"))?;
             }
         }
         Ok(())
     }
+}
+
+/// Maps whose numbers lie in an EXR beside the file: set, map, and URI of the EXR, of a root extension or its mirror.
+pub fn maps_beside(root: &Value) -> impl Iterator<Item = (&str, &str, &str)> {
+    let sheets = root[names::ROOM_TRANSLUCENCY].as_object().into_iter().flatten();
+    sheets.flat_map(|(sheet, links)| {
+        let maps = links["maps"].as_object().into_iter().flatten();
+        maps.filter_map(move |(map, link)| Some((sheet.as_str(), map.as_str(), link["exr"].as_str()?)))
+    })
 }
 
 type Texels = ((usize, usize), Vec<[f32; 4]>);

@@ -35,10 +35,8 @@ impl Master<'_> {
                 let definitions = &metadata["schema"]["classes"][name]["properties"];
                 for property in &own[class] {
                     let view = &self.json["bufferViews"][number(&table["properties"][property]["values"])];
-                    match self.column(class, property, &definitions[property], view, rows) {
-                        Ok(most) => greatest.extend(most.map(|most| ((*property).to_owned(), most))),
-                        Err(problem) => found.push(problem.at(&place)),
-                    }
+                    let column = self.column(class, property, (&definitions[property], view), rows, &mut greatest);
+                    found.extend(column.map_err(|problem| problem.at(&place)).err());
                 }
             }
             tables.push(Table { class: class.map_or(name, |c| c).into(), rows, greatest });
@@ -70,24 +68,21 @@ impl Master<'_> {
             let views = &self.json["bufferViews"];
             let view = items(views).map(|(_, v)| v).find(|v| v["name"] == definition["bufferView"]);
             let view = view.ok_or(format!("{class}/{property} has no view"))?;
-            match self.column(class, property, definition, view, rows) {
-                Ok(most) => greatest.extend(most.map(|most| ((*property).to_owned(), most))),
-                Err(problem) => found.push(problem),
-            }
+            found.extend(self.column(class, property, (definition, view), rows, &mut greatest).err());
         }
         Ok(Table { class: class.into(), rows, greatest })
     }
 
-    /// Verifies a column; the greatest of its numbers where they are rows of a table.
+    /// Verifies a column; notes the greatest of its numbers where they are rows of a table.
     fn column(
         &self,
         class: &str,
         property: &str,
-        definition: &Value,
-        view: &Value,
+        (definition, view): (&Value, &Value),
         rows: usize,
-    ) -> Result<Option<f64>, Problem> {
-        let Some(column) = COLUMNS.iter().find(|c| c.class == class && c.name == property) else { return Ok(None) };
+        greatest: &mut BTreeMap<String, f64>,
+    ) -> Result<(), Problem> {
+        let Some(column) = COLUMNS.iter().find(|c| c.class == class && c.name == property) else { return Ok(()) };
         let at = format!("{class}/{property}");
         let bytes = coded(&code::CONTRACT_TABLE, self.column_bytes(column, definition, view, rows));
         let bytes = bytes.map_err(|p| Problem { text: format!("{at}: {}", p.text), ..p })?;
@@ -102,7 +97,9 @@ impl Master<'_> {
         let is_row = REFERENCES.iter().any(|(owner, name, _)| (*owner, *name) == (class, property));
         let circle = ensure(property != "parent" || !runs_in_a_circle(&values), || format!("{at} runs in a circle"));
         coded(&code::CONTRACT_ID, circle)?;
-        Ok(values.iter().copied().filter(|_| is_row).reduce(f64::max))
+        let most = values.iter().copied().filter(|_| is_row).reduce(f64::max);
+        greatest.extend(most.map(|most| (property.to_owned(), most)));
+        Ok(())
     }
 
     fn column_bytes(&self, column: &Column, definition: &Value, view: &Value, rows: usize) -> Result<&[u8], String> {

@@ -19,14 +19,17 @@ fn material<'a>(seen: &'a Survey, primitive: &Value) -> Option<&'a str> {
 
 /// The one role of every material that has one.
 fn roles(seen: &Survey) -> BTreeMap<&str, &str> {
-    let mut roles: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    let mut roles: BTreeMap<&str, BTreeSet<Option<&str>>> = BTreeMap::new();
     for (_, primitive) in primitives(seen) {
-        if let (Some(material), Some(role)) = (material(seen, primitive), role(primitive)) {
-            roles.entry(material).or_default().insert(role);
+        if let Some(material) = material(seen, primitive) {
+            roles.entry(material).or_default().insert(role(primitive));
         }
     }
-    let one = |(material, roles): (_, BTreeSet<_>)| (roles.len() == 1).then(|| (material, roles.first().copied()));
-    roles.into_iter().filter_map(one).filter_map(|(material, role)| Some((material, role?))).collect()
+    let one = |(material, roles): (_, BTreeSet<_>)| {
+        let role: Option<&str> = roles.first().copied().flatten().filter(|_| roles.len() == 1);
+        Some((material, role?))
+    };
+    roles.into_iter().filter_map(one).collect()
 }
 
 /// Roles that some primitives have lost, or have another of.

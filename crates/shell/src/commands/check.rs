@@ -21,7 +21,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
     let typed = Options::from(call.matches);
     let limit = typed.fail_on.unwrap_or(Severity::Error);
     // Every file is looked at, and what was found decides once all have been.
-    let options = Options { fail_on: None, keep_going: true, inputs: inputs(&typed, call.matches), ..typed };
+    let options = Options { judges_at_the_end: true, keep_going: true, inputs: inputs(&typed, call.matches), ..typed };
     let console = options.console();
     let sources = Sources::new(call, Direct::Sections(&["check"]))?;
     let asked = Asked::from(call.matches)?;
@@ -57,7 +57,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         Ok(Product::Answer)
     });
     if let Some(path) = &asked.write_baseline {
-        outputs::write_text(path, Baseline::of(&found.all).to_text())?;
+        outputs::write_text(path, Baseline::of(&found.all, folder(path)).to_text())?;
         console.note(&format!("{}: written ({} known findings)", path.display(), found.all.len()));
         return done;
     }
@@ -85,6 +85,8 @@ fn inputs(options: &Options, matches: &ArgMatches) -> Vec<PathBuf> {
 struct Asked {
     master: Option<PathBuf>,
     baseline: Baseline,
+    /// Folder of the baseline.
+    home: PathBuf,
     write_baseline: Option<PathBuf>,
 }
 
@@ -99,7 +101,8 @@ impl Asked {
                 Baseline::parse(&text).map_err(refuse)?
             }
         };
-        Ok(Asked { master: path("master"), baseline, write_baseline: path("write-baseline") })
+        let home = path("baseline").map(|file| folder(&file).to_path_buf()).unwrap_or_default();
+        Ok(Asked { master: path("master"), baseline, home, write_baseline: path("write-baseline") })
     }
 }
 
@@ -132,7 +135,7 @@ fn one(
     report.read.push(input.to_path_buf());
     report.read.extend(checked.files);
     found.all.extend(checked.findings.iter().cloned());
-    let (new, known) = asked.baseline.filter(checked.findings);
+    let (new, known) = asked.baseline.filter(checked.findings, &asked.home);
     found.grave += new.iter().filter(|finding| finding.severity >= found.limit).count();
     let count = |severity| new.iter().filter(|finding| finding.severity == severity).count();
     let [errors, warnings, notes] = [Severity::Error, Severity::Warning, Severity::Note].map(count);
