@@ -73,6 +73,30 @@ fn holes_are_said_and_can_fail_a_pipeline() {
     assert!(here.join("maps.exr").exists());
 }
 
+/// glTF is read as OBJ is, and texture coordinates of the mesh's own hold the same leaf.
+#[test]
+fn a_mesh_comes_as_gltf_or_with_its_own_texture_coordinates() {
+    let here = folder();
+    let here = here.path();
+    leaf(here, &[]);
+    let flags = ["leaf.obj", "--unit", "mm", "--up", "y", "-o", "leaf.glb"];
+    run_in(here, crate::common::IMPORT, &flags).expect(0, &[]);
+    run_in(here, LEAFSCAN, &["leaf.glb", "--resolution", "64", "-o", "maps.exr"]).expect(0, &["a texel is 1.000000"]);
+    assert!((json(here, "maps.json")["record"]["facts"]["thicknessMm"]["median"].as_f64().unwrap() - 0.5).abs() < 1e-4);
+    let text = std::fs::read_to_string(here.join("leaf.obj")).unwrap();
+    let places = ["0 0", "1 0", "1 1", "0 1"].repeat(2).iter().map(|uv| format!("vt {uv}\n")).collect::<String>();
+    let corner = |word: &str| word.parse::<u32>().map_or(word.to_owned(), |i| format!("{i}/{i}"));
+    let face = |line: &str| match line.strip_prefix("f ") {
+        Some(rest) => format!("f {}\n", rest.split(' ').map(corner).collect::<Vec<_>>().join(" ")),
+        None => format!("{line}\n"),
+    };
+    std::fs::write(here.join("leaf.obj"), places + &text.lines().map(face).collect::<String>()).unwrap();
+    let said =
+        run_in(here, LEAFSCAN, &[&SCAN[..], &["--unwrap", "uv", "-o", "uv.exr"]].concat()).expect(0, &["a texel is"]);
+    // 40 x 60 mm over a square of 64 texels: two edges.
+    assert!(said.stderr.contains("0.625000 x 0.937500 mm"), "{}", said.stderr);
+}
+
 /// A face turned over, and a leaf that lies over itself.
 #[test]
 fn turned_faces_and_folds_are_said() {
@@ -106,7 +130,8 @@ fn what_is_no_leaf_is_refused_with_a_remedy() {
     // One triangle: nothing has a back.
     std::fs::write(here.join("leaf.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let flat = [&SCAN[..], &["-o", "maps.exr"]].concat();
-    run_in(here, LEAFSCAN, &flat).expect(3, &["leaf.obj", "no texel of the maps holds any"]);
+    run_in(here, LEAFSCAN, &flat)
+        .expect(3, &["leaf.obj", "no texel of the maps holds any", "look at the findings about holes"]);
     leaf(here, &[]);
     run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "maps.jpg"]].concat()).expect(2, &[".exr, .png or .layer"]);
     run_in(here, LEAFSCAN, &[&flat[..], &["--unwrap", "uv"]].concat()).expect(3, &["no texture coordinates"]);
@@ -145,6 +170,20 @@ fn two_height_maps_become_the_maps_of_a_leaf() {
     run_in(here, LEAFSCAN, &[&heights[..2], &["-o", "one.exr"]].concat()).expect(2, &["--height-back FILE"]);
     run_in(here, LEAFSCAN, &[&heights[..], &["-o", "one.exr"]].concat()).expect(2, &["texel_mm", "must be given"]);
     run_in(here, LEAFSCAN, &[&SCAN[..], &heights, &["-o", "one.exr"]].concat()).expect(2, &["and not both"]);
+    let wrong = |front: &[f32], back: &[f32], said: &[&str]| {
+        for (name, data) in [("f.exr", front), ("b.exr", back)] {
+            let (width, height) = (4, data.len() as u32 / 4);
+            let raster = foliar_bake::FloatRaster { width, height, channels: 1, data: data.to_vec() };
+            let bytes = foliar_carrier::encode_raster(&raster, "height", Path::new("a.exr")).unwrap();
+            std::fs::write(here.join(name), bytes).unwrap();
+        }
+        let both = ["--height-front", "f.exr", "--height-back", "b.exr", "--texel-mm", "1", "-o", "one.exr"];
+        run_in(here, LEAFSCAN, &both).expect(3, said);
+    };
+    wrong(&[0.1; 16], &[0.1; 8], &["b.exr", "4 x 2", "4 x 4", "one size"]);
+    let mut hole = [0.1; 16];
+    hole[9] = f32::NAN;
+    wrong(&hole, &[0.1; 16], &["f.exr", "NaN at column 1, row 2", "write it again"]);
     std::fs::write(here.join("cut.exr"), &std::fs::read(here.join("mesh-height-back.exr")).unwrap()[..300]).unwrap();
     let cut =
         ["--height-front", "mesh-height-front.exr", "--height-back", "cut.exr", "--texel-mm", "1", "-o", "one.exr"];

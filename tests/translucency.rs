@@ -62,7 +62,8 @@ fn maps_alone_become_exr_png_and_a_json_that_explains_them() {
     thickness(here.path(), "t.png", 48, 0.1);
     normals(here.path(), "nb.png", 48);
     let arguments = ["--thickness", "t.png", "--normal-back", "nb.png", "-o", "leaf.exr"];
-    let said = run_in(here.path(), TRANSLUCENCY, &with_flags(&arguments)).expect(0, &[]);
+    let said = run_in(here.path(), TRANSLUCENCY, &with_flags(&arguments))
+        .expect(0, &["MAP-ROUNDED", "% of the brightest", "the EXR beside it has every bit"]);
     assert!(said.stdout.contains("leaf.exr"), "{said:?}");
     let names = ["leaf.exr", "leaf-back.exr", "leaf.png", "leaf.json"];
     assert!(names.iter().all(|name| here.path().join(name).is_file()));
@@ -260,6 +261,29 @@ fn photographs_are_passed_on_and_embedded_maps_stand_alone() {
     verify_file(&baked).unwrap();
     let again = run(DENSITY, &[text(&baked), "-o", text(&baked)]).expect(0, &[]);
     assert!(again.stdout.contains("unchanged"), "{again:?}");
+}
+
+/// Three bands of both sides on a tree: beside it, or in it.
+#[test]
+fn three_bands_go_onto_a_tree() {
+    let here = folder();
+    let source = tree(here.path(), 20);
+    let map = thickness(here.path(), "t.png", 16, 0.1);
+    let baked = fresh("lucy-rgb.glb");
+    let flags = [text(&source), "--thickness", text(&map), "--bands", "rgb", "-o", text(&baked)];
+    run(TRANSLUCENCY, &with_flags(&flags)).expect(0, &["MAP-ROUNDED"]);
+    verify_file(&baked).unwrap();
+    assert_eq!(sides(&baked).len(), 6, "{:?}", sides(&baked));
+    let photo = here.path().join("photo.jpg");
+    ImageBuffer::from_pixel(8, 8, Rgb([90u8, 160, 40])).save(&photo).unwrap();
+    let all = [&flags[..], &["--embed-all", "--backlit", text(&photo)]].concat();
+    run(TRANSLUCENCY, &with_flags(&all)).expect(0, &["write an EXR to keep every bit"]);
+    verify_file(&baked).unwrap();
+    assert!(sides(&baked).is_empty(), "{:?}", sides(&baked));
+    let (json, binary) = open_glb(&baked);
+    assert_eq!(json["textures"].as_array().unwrap().len(), 7, "six maps and the photograph");
+    let bytes = std::fs::read(&photo).unwrap();
+    assert!(binary.windows(bytes.len()).any(|window| window == bytes), "a JPEG is passed on as it is");
 }
 
 /// Nothing can lie beside standard output: what goes there stands alone.

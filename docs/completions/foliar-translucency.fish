@@ -59,7 +59,7 @@ complete -c foliar-translucency -l fit -d 'How the fit weighs directions. [defau
 cosine\t'By their cosine: better from ahead, worse from the side.'
 anchor\t'Exact from straight ahead; else all alike.'"
 complete -c foliar-translucency -l curve -d 'Whether two numbers bend the linear answer. [default "straight"]' -r -f -a "straight\t'No: any viewer of three coefficients shows the map.'
-fitted\t'Yes: a viewer must multiply by a0 + a1 l_z, which the record tells. Errors fall to a third.'"
+fitted\t'Yes: a viewer must multiply by a0 + a1 l_z, which the record tells. Errors fall by a third to six tenths.'"
 complete -c foliar-translucency -l spread -d 'Whether light spreads inside the leaf. [default "kernel"]' -r -f -a "none\t'Each texel for itself.'
 kernel\t'By the kernel of the thickness where it leaves.'"
 complete -c foliar-translucency -l filters -d 'Filters of the bank that stands for the spread, the identity among them; without it as many as keep the bank within .3 % rms of the direct gather: 6 on a map of 1024 texels, 8 on one of 4096. [at least 2, at most 12]' -r

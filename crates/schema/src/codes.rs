@@ -87,9 +87,9 @@ codes! {
     MAP_ESTIMATED = "MAP-ESTIMATED", Note, "A map was estimated from a photograph, not measured: take it as an artist's guess.";
     MAP_FITTED = "MAP-FITTED", Note, "Absorption and scattering of a leaf were found from its measured reflectance and transmittance: these are they.";
     MAP_NORMALS = "MAP-NORMALS", Warning, "Normals of no length were taken for straight ones: is it a normal map?";
-    MAP_ROUNDED = "MAP-ROUNDED", Note, "Maps in a glTF have 8 bits: this is what that costs; the EXR beside the file has the numbers themselves.";
+    MAP_ROUNDED = "MAP-ROUNDED", Note, "A map of coefficients was stored in 8 bits: this is what that costs.";
     MAP_STEEP = "MAP-STEEP", Note, "Thickness rises steeper than 1:1: light leaves through the wall there, which the model does not know.";
-    MAP_THIN = "MAP-THIN", Note, "Texels of a leaf that are thinner than anything grows were taken for the least thickness.";
+    MAP_THIN = "MAP-THIN", Note, "Texels are thinner than any leaf: taken for the least thickness, or, below 0, for no leaf.";
     MAP_UNUSED = "MAP-UNUSED", Warning, "A map was given for a material that no leaf has: correct the name, or take it out.";
     MATERIAL_CULLED = "MATERIAL-CULLED", Warning, "A leaf material is seen from one side only, and its leaves have no back: half of them vanish; set doubleSided.";
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";

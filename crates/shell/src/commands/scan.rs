@@ -52,7 +52,9 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
         console.log(&report.lap(baker.room()));
         report.set("facts", Value::Object(layer.record.facts.clone()));
         words(&layer, &output).iter().for_each(|line| console.note(line));
-        Ok(Product::Files(encode(&layer, &output)?.0))
+        let (files, findings) = encode(&layer, &output)?;
+        report.find(findings);
+        Ok(Product::Files(files))
     })
 }
 
@@ -146,5 +148,7 @@ fn words(layer: &Layer, output: &Path) -> Vec<String> {
 fn read_back(layer: &Layer) -> Option<String> {
     let (black, white) = stored(layer, names::MAP_HEIGHT_FRONT)?;
     let span = white - black;
-    Some(format!("heights are read again with --height-scale-mm {span:.6} and, here, --height-offset-mm {black:.6}"))
+    Some(format!(
+        "heights are read again with --height-scale-mm {span:.6} --height-offset-mm {black:.6} (the offset in foliar-leafscan alone)"
+    ))
 }

@@ -31,8 +31,8 @@ pub struct Sheet {
     pub range_mm: (f64, f64),
     /// Median thickness.
     pub median_mm: f64,
-    /// What one step of a map of whole numbers is, mm.
-    step_mm: Option<f64>,
+    /// Bits of a map of whole numbers, and what one step of it is, mm.
+    step: Option<(u32, f64)>,
     /// Mean color that the leaf shows by day, linear, where anything says so.
     albedo: Option<[f32; 3]>,
     /// What a person should know.
@@ -110,7 +110,7 @@ impl Sheet {
         (self.range_mm, self.median_mm) = (range, median);
         if params.thickness_from == ThicknessFrom::Map {
             let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
-            self.step_mm = (map.bits < 32).then(|| scale / steps(map.bits));
+            self.step = (map.bits < 32).then(|| (map.bits, scale / steps(map.bits)));
             self.warn_of_walls();
         }
         Ok(())
@@ -184,8 +184,8 @@ impl Sheet {
         let walls: usize = rows.map(|y| (0..self.width).filter(|x| wall(*x, y)).count()).sum();
         if walls > 0 {
             let message = format!(
-                "at {walls} texels thickness rises steeper than 1:1: within .06 mm of such a wall light is off by 3 % \
-                 (510 nm) to 16 % (550 nm)"
+                "at {walls} texels thickness rises steeper than 1:1: light leaves through such a wall, which this room does not \
+                 know; smooth the map there where that shows"
             );
             self.findings.push(finding(&code::MAP_STEEP, names::MAP_THICKNESS, message));
         }
@@ -195,16 +195,16 @@ impl Sheet {
     /// thickness, mm. `None` for floats.
     pub fn cost_of_step(&self, through: impl Fn(f64) -> f64) -> Option<f64> {
         const APART: f64 = 0.05;
-        let step = self.step_mm?;
+        let (_, step) = self.step?;
         let at = |share: f64| libm::log(through(share * self.median_mm));
         Some((at(1.0 - APART) - at(1.0 + APART)) / (2.0 * APART * self.median_mm) * step)
     }
 
     /// The same in words, where it is worth saying.
     pub fn warning_of_steps(&self, cost: f64) -> Option<Finding> {
-        let step = self.step_mm.filter(|_| cost > COARSE)?;
+        let (bits, step) = self.step.filter(|_| cost > COARSE)?;
         let message = format!(
-            "its bits make steps of {step:.5} mm, {:.1} % of the light that passes at {:.3} mm: 16 bits or floats cost \
+            "{bits} bits make steps of {step:.5} mm, {:.1} % of the light that passes at {:.3} mm: 16 bits or floats cost \
              nothing",
             100.0 * cost,
             self.median_mm
@@ -217,15 +217,15 @@ impl Sheet {
         if map.bits < 32 {
             // A slope is a difference over two texels.
             let [right, down] = self.texel_mm;
-            self.warn_of_slopes(name, scale / steps(map.bits) / (2.0 * right.min(down)));
+            self.warn_of_slopes(name, map.bits, scale / steps(map.bits) / (2.0 * right.min(down)));
         }
     }
 
     /// What steps of a normal's slope cost: of light that falls in at 45 degrees, a slope adds its own share.
-    fn warn_of_slopes(&mut self, name: &str, slope: f64) {
+    fn warn_of_slopes(&mut self, name: &str, bits: u32, slope: f64) {
         if slope > COARSE {
             let message = format!(
-                "its bits turn normals in steps of {:.2} degrees, {:.1} % of the light that falls in at 45 degrees: 16 bits \
+                "{bits} bits turn normals in steps of {:.2} degrees, {:.1} % of the light that falls in at 45 degrees: 16 bits \
                  or floats cost nothing",
                 libm::atan(slope).to_degrees(),
                 100.0 * slope
@@ -255,7 +255,7 @@ impl Sheet {
         let texels = || map.raster.data.par_chunks_exact(channels);
         let normals = texels().map(texel).collect();
         if map.bits < 32 {
-            self.warn_of_slopes(name, 2.0 / steps(map.bits));
+            self.warn_of_slopes(name, map.bits, 2.0 / steps(map.bits));
         }
         let is_none = |values: &[f32]| is_black(values) || length(decoded(values)) <= f32::EPSILON;
         let leaf = |at: usize| self.thickness_mm[at] > 0.0;
@@ -363,7 +363,7 @@ fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result
         Some(at) => {
             let texel = at / raster.channels as usize;
             let problem = format!("is {} at column {}, row {}", raster.data[at], texel % width, texel / width);
-            Err(bad(name, problem, "every texel must be a finite number"))
+            Err(bad(name, problem, "every texel must be a finite number: write it again"))
         }
     }
 }

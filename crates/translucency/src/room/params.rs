@@ -32,7 +32,7 @@ pub enum AngularCurve {
     /// No: any viewer of three coefficients shows the map.
     #[default]
     Straight,
-    /// Yes: a viewer must multiply by a0 + a1 l_z, which the record tells. Errors fall to a third.
+    /// Yes: a viewer must multiply by a0 + a1 l_z, which the record tells. Errors fall by a third to six tenths.
     Fitted,
 }
 

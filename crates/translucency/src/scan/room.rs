@@ -209,7 +209,9 @@ fn of_heights(maps: &Maps, params: &ScanParams) -> Result<Scan, BakeError> {
         let values: Vec<f32> = map.raster.data.iter().step_by(channels).map(|v| v * scale as f32).collect();
         match values.iter().position(|v| !v.is_finite()) {
             Some(at) => {
-                Err(bad_map(name, format!("is not finite at texel {at}"), "every texel must be a finite number"))
+                let (column, row) = (at % map.raster.width.max(1) as usize, at / map.raster.width.max(1) as usize);
+                let problem = format!("is {} at column {column}, row {row}", values[at]);
+                Err(bad_map(name, problem, "every texel must be a finite number: write it again"))
             }
             None => Ok(values),
         }
