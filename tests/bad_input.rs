@@ -4,7 +4,7 @@
 use crate::bad_places::{
     at_full_disk, at_full_file, at_read_only_disk, at_read_only_folder, killed, through_closed_pipe,
 };
-use crate::common::{DENSITY, FOLIAR, IMPORT, Run, folder, glb, output, run_in, text, tree_text};
+use crate::common::{CHECK, DENSITY, FOLIAR, IMPORT, Run, folder, glb, output, run_in, text, tree_text};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -272,6 +272,25 @@ fn every_bad_input_has_its_status_and_message_and_leaves_the_old_output() {
     }
     let wrong: Vec<String> = rows.iter().filter_map(deviation).collect();
     assert!(wrong.is_empty(), "{} of {} rows:\n{}", wrong.len(), rows.len(), wrong.join("\n"));
+}
+
+/// The checker reports what a bake refuses: it never fails itself, and writes nothing.
+#[test]
+fn what_cannot_be_baked_can_be_checked() {
+    for row in table().iter().filter(|row| row.arguments.first() == Some(&"bake") && row.status == 3) {
+        let here = folder();
+        row.write(here.path());
+        let before = contents(here.path());
+        let (Some(file), true) =
+            (row.arguments.get(1), row.files.iter().any(|(name, _)| Some(name) == row.arguments.get(1)))
+        else {
+            continue;
+        };
+        let run = run_in(here.path(), CHECK, &[file]);
+        assert!([0, 1].contains(&run.status), "{}: {run:?}", row.kind);
+        assert!(run.stdout.contains(&format!("{file}: ")), "{}: {run:?}", row.kind);
+        assert_eq!(contents(here.path()), before, "{}", row.kind);
+    }
 }
 
 /// What of a row does not come true, in words.

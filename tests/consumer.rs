@@ -123,3 +123,10 @@ fn the_example_page_shows_what_was_baked() {
     let (inside, rim) = (of(&|r| r < near), of(&|r| r > far));
     assert!(inside + 1.0 / 255.0 < rim, "darker inside ({inside:.3}) than at the rim ({rim:.3})");
 }
+
+/// Whoever writes their own has this page to read: it stays short.
+#[test]
+fn the_page_is_short() {
+    let page = std::fs::read_to_string(repository().join("docs/examples/minimal/index.html")).unwrap();
+    assert!(page.lines().count() <= 150, "{} lines", page.lines().count());
+}

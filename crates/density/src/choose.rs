@@ -57,9 +57,7 @@ struct Climb {
 impl Climb {
     /// Starts from the error that trees of 40,000 leaves and more have at two points per radius, in steps.
     fn new(power: f64, at_two: f64, quality: f64) -> Climb {
-        let mut climb = Climb { power, least: 0.0, measured: false };
-        climb.missed(2.0, at_two / quality);
-        Climb { measured: false, ..climb }
+        Climb { power, least: law(2.0, at_two / quality, power), measured: false }
     }
 
     /// Whether a rung may keep the promise, after what was missed.
@@ -75,9 +73,14 @@ impl Climb {
 
     /// A rung missed by a factor.
     fn missed(&mut self, points: f64, factor: f64) {
-        self.least = points * libm::pow(factor, 1.0 / self.power);
+        self.least = law(points, factor, self.power);
         self.measured = true;
     }
+}
+
+/// Points per radius at which a promise that is missed by a factor at so many is just kept.
+fn law(points: f64, factor: f64, power: f64) -> f64 {
+    points * libm::pow(factor, 1.0 / power)
 }
 
 /// Most points of a lattice for so many places.
@@ -102,7 +105,7 @@ pub(crate) fn sky(foliage: &Foliage, queries: &[Query], params: &Params, most: u
         let scale = queries.len() as f64 / places.len() as f64;
         let balls = foliage.generators.len() as f64;
         let dear = pairs as f64 * scale * cost::CHORD + balls * AXES as f64 * cost::DISK;
-        if let Some(chosen) = swept_sky(foliage, queries, params, most, (&at, &exact, dear)) {
+        if let Some(chosen) = swept_sky(foliage, queries, params, most, (&at, &places, &exact, dear)) {
             return chosen;
         }
     }
@@ -117,9 +120,8 @@ fn swept_sky(
     queries: &[Query],
     params: &Params,
     most: usize,
-    (at, exact, dear): (&[usize], &[SkySample], f64),
+    (at, places, exact, dear): (&[usize], &[Query], &[SkySample], f64),
 ) -> Option<ChosenSky> {
-    let places = &of(queries, at);
     let mut climb = Climb::new(2.0, 1.5, params.quality());
     for points in RUNGS {
         let lattice = Lattice::around(foliage.own(), foliage.radius, points, most);

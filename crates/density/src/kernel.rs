@@ -44,10 +44,10 @@ impl Isa {
         let mut found = vec![Isa::Plain];
         #[cfg(target_arch = "x86_64")]
         {
-            if std::arch::is_x86_feature_detected!("avx2") {
+            if pulp::x86::V3::try_new().is_some() {
                 found.push(Isa::Avx2);
             }
-            if std::arch::is_x86_feature_detected!("avx512f") {
+            if pulp::x86::V4::try_new().is_some() {
                 found.push(Isa::Avx512);
             }
         }

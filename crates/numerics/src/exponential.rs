@@ -29,7 +29,8 @@ const TAYLOR: [f64; 14] = [
 #[inline]
 pub fn exp_of_negatives(values: &mut [f64]) {
     for value in values {
-        let x = value.max(LEAST);
+        // Not by `max`, which would make a number of what is none.
+        let x = if *value < LEAST { LEAST } else { *value };
         let shifted = x * std::f64::consts::LOG2_E + ROUNDING;
         let whole = shifted - ROUNDING;
         let rest = (x - whole * LN_2[0]) - whole * LN_2[1];
@@ -63,5 +64,8 @@ mod tests {
         let mut values = [-709.0, -1e300, f64::NEG_INFINITY];
         exp_of_negatives(&mut values);
         assert!(values.iter().all(|v| (0.0..1e-300).contains(v)), "{values:?}");
+        let mut none = [f64::NAN];
+        exp_of_negatives(&mut none);
+        assert!(none[0].is_nan());
     }
 }

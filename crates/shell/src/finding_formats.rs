@@ -108,7 +108,7 @@ fn uri(path: &str) -> String {
     }
 }
 
-/// One suite per asset; notes pass, all else fails.
+/// One suite per asset.
 fn junit(reports: &[Map<String, Value>], failure: Severity) -> String {
     let suites: String = reports.iter().map(|report| suite(report, failure)).collect();
     format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"foliar\">\n{suites}</testsuites>")

@@ -60,8 +60,8 @@ pub struct Options {
     pub outputs: Option<PathBuf>,
     /// `--fail-on`.
     pub fail_on: Option<Severity>,
-    /// What a report for machines calls a failure: `--fail-on`, else an error.
-    pub failure: Option<Severity>,
+    /// Whether findings decide when all inputs have been looked at, not one by one.
+    pub judges_at_the_end: bool,
     /// `--threads`.
     pub threads: Option<usize>,
     /// `--cache`.
@@ -102,7 +102,7 @@ impl Options {
             depfile: path("depfile"),
             outputs: path("outputs"),
             fail_on: word("fail-on").map(severity),
-            failure: word("fail-on").map(severity),
+            judges_at_the_end: false,
             threads: matches.try_get_one::<u16>("threads").ok().flatten().map(|&n| n.into()),
             cache: path("cache"),
             only: matches.try_get_many("only").ok().flatten().into_iter().flatten().cloned().collect(),

@@ -77,7 +77,7 @@ pub fn run(options: &Options, console: &Console, jobs: &[Job], work: Work) -> Re
             break;
         }
     }
-    let failure = options.failure.unwrap_or(Severity::Error);
+    let failure = options.fail_on.unwrap_or(Severity::Error);
     if let Some(text) = finding_formats::text(options.format, &done.reports, failure) {
         console.result(&text)?;
     }
@@ -153,7 +153,7 @@ fn fail_on(options: &Options, console: &Console, report: &Report) -> Result<(), 
     for finding in report.findings.iter().filter(|_| !report.tells_findings) {
         console.finding(finding);
     }
-    let Some(limit) = options.fail_on else { return Ok(()) };
+    let Some(limit) = options.fail_on.filter(|_| !options.judges_at_the_end) else { return Ok(()) };
     let bad: Vec<&str> = report.findings.iter().filter(|f| f.severity >= limit).map(|f| f.code.as_str()).collect();
     match bad.as_slice() {
         [] => Ok(()),
