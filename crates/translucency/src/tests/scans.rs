@@ -280,7 +280,7 @@ fn two_maps_of_heights_bake_as_the_mesh_does() {
     says(&Maps::new(), json!({}), "a closed mesh of a leaf, or height maps");
     let mut torn = maps.clone();
     torn.get_mut(names::MAP_HEIGHT_BACK).unwrap().raster.data[7] = f32::NAN;
-    says(&torn, json!({"texel_mm": 1.0}), "not finite at texel 7");
+    says(&torn, json!({"texel_mm": 1.0}), "is NaN at column 7, row 0");
     let mut other = maps.clone();
     other.insert(names::MAP_HEIGHT_BACK.into(), map(&[0.1; 4], 2));
     says(&other, json!({"texel_mm": 1.0}), "one size");
