@@ -2,6 +2,7 @@
 //! the spot (own room, in range).
 
 use crate::{Array, BakeError, Baked, Baker, Inputs, Layer, Progress};
+use foliar_numerics::find_first;
 use foliar_schema::{CHANNELS, COLUMNS, Channel, RASTERS, Record, check_ranges, names};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -120,7 +121,7 @@ fn check_baked(room: &str, baked: &Baked) -> Result<(), BakeError> {
         let info = RASTERS.iter().find(|info| info.name == name && info.room == room);
         let right = info.filter(|info| info.channels == raster.channels && raster.is_whole());
         let inside = |value: &f32| right.is_some_and(|info| *value >= info.min && *value <= info.max);
-        if let Some(at) = raster.data.iter().position(|value| !inside(value)) {
+        if let Some(at) = find_first(&raster.data, |value| !inside(value)) {
             let (row, value) = (at / (raster.channels * raster.width).max(1) as usize, raster.data[at]);
             return Err(BakeError::Broken { room: room.into(), channel: format!("raster/{name}"), row, value });
         }

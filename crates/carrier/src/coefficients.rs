@@ -45,9 +45,9 @@ pub(crate) fn rounded(raster: &FloatRaster, half: bool) -> FloatRaster {
 
 /// One EXR: coefficients filled beyond the leaf, and the mean transmission, which says where the leaf is.
 pub(crate) fn exr(raster: &FloatRaster, filled: &[Texel], half: bool) -> Result<Vec<u8>, CarrierError> {
-    let own = raster.data.par_chunks_exact(CHANNELS);
-    let data = own.zip(filled).flat_map_iter(|(own, f)| [f[0], f[1], f[2], own[3]]).collect();
-    raster_file::exr_bytes(&FloatRaster { data, ..*raster }, half)
+    let value =
+        |channel: usize, at: usize| if channel < 3 { filled[at][channel] } else { raster.data[at * CHANNELS + 3] };
+    raster_file::exr_of((raster.width, raster.height), CHANNELS, half, value)
         .map_err(|e| CarrierError::input("EXR", "", e.to_string(), REPORT))
 }
 
@@ -123,50 +123,135 @@ pub(crate) fn filled(raster: &FloatRaster) -> Vec<Texel> {
 
 /// A map in 8 bits. Scale and bias are those, per channel, whose squared error over the leaf is least.
 pub(crate) fn stored(raster: &FloatRaster, filled: &[Texel]) -> Stored {
-    let leaf: Vec<usize> = (0..filled.len()).filter(|at| raster.data[at * CHANNELS + 3] > 0.0).collect();
-    let ranges: Vec<(f64, f64)> = (0..3).into_par_iter().map(|c| best_range(filled, &leaf, c)).collect();
-    let greatest = leaf.iter().map(|at| filled[*at][3]).fold(0.0f32, f32::max);
-    let greatest = if greatest > 0.0 { f64::from(greatest) } else { 1.0 };
+    let chunks = || filled.par_chunks(CHUNK).zip(raster.data.par_chunks(CHUNK * CHANNELS));
+    let spans = chunks().map(|(filled, own)| Span::of(leaf(filled, own))).reduce(Span::default, Span::and);
+    let bins = chunks().map(|(filled, own)| spans.bins(leaf(filled, own)));
+    let bins = bins.reduce(none, |a, b| std::array::from_fn(|c| a[c].iter().zip(&b[c]).map(|(a, b)| a + b).collect()));
+    let ranges: [(f64, f64); 3] = std::array::from_fn(|c| best_range(&bins[c], spans.channels[c]));
+    let greatest = if spans.mean > 0.0 { f64::from(spans.mean) } else { 1.0 };
     let word = |v: f64| ((v * 255.0).clamp(0.0, 255.0) + 0.5) as u8;
     let part = |c: usize, v: f32| {
         let (low, high) = ranges[c];
         word((f64::from(v) - low) / (high - low))
     };
     let texel = |t: &Texel| [part(0, t[0]), part(1, t[1]), part(2, t[2]), word(f64::from(t[3]) / greatest).max(1)];
-    let texels: Vec<[u8; 4]> = filled.par_iter().map(texel).collect();
-    let (mut sum, mut worst) = (0.0f64, 0.0f64);
-    for at in &leaf {
+    let mut rgba = vec![0u8; filled.len() * CHANNELS];
+    let misses = rgba.par_chunks_mut(CHUNK * CHANNELS).zip(chunks()).map(|(rgba, (filled, own))| {
+        let mut misses = Misses::default();
+        for ((bytes, t), own) in rgba.chunks_exact_mut(CHANNELS).zip(filled).zip(own.chunks_exact(CHANNELS)) {
+            bytes.copy_from_slice(&texel(t));
+            if own[3] > 0.0 {
+                misses.add(bytes, t, &ranges);
+            }
+        }
+        misses
+    });
+    // Added in the order of the texels, whoever summed them.
+    let misses: Vec<Misses> = misses.collect();
+    let all = misses.iter().fold(Misses::default(), |a, b| a.and(b));
+    let [scale, bias] = [|r: &(f64, f64)| r.1 - r.0, |r: &(f64, f64)| r.0].map(|f| [0, 1, 2].map(|c| f(&ranges[c])));
+    let rms_error = (all.squares / (3 * all.count).max(1) as f64).sqrt();
+    let link = MapLink { scale, bias, mean_scale: greatest, rms_error, max_error: all.worst, ..MapLink::default() };
+    Stored { rgba, link }
+}
+
+/// Texels that one task looks at.
+const CHUNK: usize = 1 << 15;
+
+/// Those of these texels that are leaf.
+fn leaf<'a>(filled: &'a [Texel], own: &'a [f32]) -> impl Iterator<Item = &'a Texel> {
+    filled.iter().zip(own.chunks_exact(CHANNELS)).filter(|(_, own)| own[3] > 0.0).map(|(filled, _)| filled)
+}
+
+/// Counts of texels in each bin of each channel.
+type Bins = [Vec<u32>; 3];
+
+fn none() -> Bins {
+    std::array::from_fn(|_| vec![0; BINS])
+}
+
+/// Least and greatest number of each channel, and the greatest mean.
+#[derive(Clone, Copy)]
+struct Span {
+    channels: [(f32, f32); 3],
+    mean: f32,
+}
+
+impl Default for Span {
+    fn default() -> Span {
+        Span { channels: [(f32::INFINITY, f32::NEG_INFINITY); 3], mean: 0.0 }
+    }
+}
+
+impl Span {
+    fn of<'a>(texels: impl Iterator<Item = &'a Texel>) -> Span {
+        texels.fold(Span::default(), |span, t| span.and(Span { channels: [0, 1, 2].map(|c| (t[c], t[c])), mean: t[3] }))
+    }
+
+    fn and(self, other: Span) -> Span {
+        let wider = |c: usize| {
+            let ((a, b), (c, d)) = (self.channels[c], other.channels[c]);
+            (a.min(c), b.max(d))
+        };
+        Span { channels: [0, 1, 2].map(wider), mean: self.mean.max(other.mean) }
+    }
+
+    fn bins<'a>(&self, texels: impl Iterator<Item = &'a Texel>) -> Bins {
+        let mut bins = none();
+        let scales = self.channels.map(|(least, most)| BINS as f64 / (f64::from(most) - f64::from(least)));
+        for texel in texels {
+            for (c, bins) in bins.iter_mut().enumerate() {
+                // No number where there is one value alone: the first bin.
+                let bin = (f64::from(texel[c]) - f64::from(self.channels[c].0)) * scales[c];
+                bins[(bin as usize).min(BINS - 1)] += 1;
+            }
+        }
+        bins
+    }
+}
+
+/// What 8 bits cost.
+#[derive(Clone, Copy, Default)]
+struct Misses {
+    squares: f64,
+    worst: f64,
+    count: usize,
+}
+
+impl Misses {
+    fn add(&mut self, bytes: &[u8], texel: &Texel, ranges: &[(f64, f64); 3]) {
         for (c, (low, high)) in ranges.iter().enumerate() {
-            let back = low + (high - low) * f64::from(texels[*at][c]) / 255.0;
-            let miss = (back - f64::from(filled[*at][c])).abs();
-            (sum, worst) = (sum + miss * miss, worst.max(miss));
+            let miss = (low + (high - low) * f64::from(bytes[c]) / 255.0 - f64::from(texel[c])).abs();
+            (self.squares, self.worst) = (self.squares + miss * miss, self.worst.max(miss));
+        }
+        self.count += 1;
+    }
+
+    fn and(self, other: &Misses) -> Misses {
+        Misses {
+            squares: self.squares + other.squares,
+            worst: self.worst.max(other.worst),
+            count: self.count + other.count,
         }
     }
-    let [scale, bias] = [|r: &(f64, f64)| r.1 - r.0, |r: &(f64, f64)| r.0].map(|f| [0, 1, 2].map(|c| f(&ranges[c])));
-    let rms_error = (sum / (3 * leaf.len()).max(1) as f64).sqrt();
-    let link = MapLink { scale, bias, mean_scale: greatest, rms_error, max_error: worst, ..MapLink::default() };
-    Stored { rgba: texels.into_flattened(), link }
 }
 
 /// Least and greatest number of a channel that 8 bits span: what lies beyond is cut where that costs less than coarser
 /// steps for all.
-fn best_range(filled: &[Texel], leaf: &[usize], channel: usize) -> (f64, f64) {
-    let value = |at: &usize| f64::from(filled[*at][channel]);
-    let (least, most) = leaf.iter().map(value).fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
+fn best_range(bins: &[u32], (least, most): (f32, f32)) -> (f64, f64) {
+    let (least, most) = (f64::from(least), f64::from(most));
     if least >= most {
         // One number, or none: any step holds it.
-        let only = if leaf.is_empty() { 0.0 } else { least };
+        let only = if least.is_finite() { least } else { 0.0 };
         return (only, only + 1.0);
     }
     let width = (most - least) / BINS as f64;
-    let mut bins = [0.0f64; BINS];
-    leaf.iter().for_each(|at| bins[(((value(at) - least) / width) as usize).min(BINS - 1)] += 1.0);
-    let total = leaf.len() as f64;
+    let total = bins.iter().map(|count| f64::from(*count)).sum::<f64>();
     // Bins that must be left out at an end before more than a share of the texels is.
     let edge = |cut: f64, bin: &dyn Fn(usize) -> usize| {
         let mut seen = 0.0;
         let first = (0..BINS).find(|at| {
-            seen += bins[bin(*at)];
+            seen += f64::from(bins[bin(*at)]);
             seen > cut * total
         });
         bin(first.unwrap_or(0))
@@ -182,7 +267,8 @@ fn best_range(filled: &[Texel], leaf: &[usize], channel: usize) -> (f64, f64) {
                 let center = least + width * (bin as f64 + 0.5);
                 (a - center).max(center - b).max(0.0)
             };
-            let cut: f64 = (0..*low).chain(*high + 1..BINS).map(|bin| bins[bin] * beyond(bin) * beyond(bin)).sum();
+            let outside = (0..*low).chain(*high + 1..BINS);
+            let cut: f64 = outside.map(|bin| f64::from(bins[bin]) * beyond(bin) * beyond(bin)).sum();
             let cost = total * step * step / 12.0 + cut;
             if cost < best.0 {
                 best = (cost, a, b);

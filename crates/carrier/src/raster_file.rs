@@ -12,6 +12,7 @@ use half::f16;
 use half::slice::HalfFloatSliceExt;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use rayon::prelude::*;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -59,11 +60,21 @@ fn png_bytes(floats: &FloatRaster, (min, max): (f64, f64)) -> Result<Vec<u8>, im
 
 /// EXR bytes of a raster, of 16-bit floats where `half`.
 pub(crate) fn exr_bytes(raster: &FloatRaster, half: bool) -> exr::error::Result<Vec<u8>> {
-    let names: &[&str] = if raster.channels == 1 { &["Y"] } else { &["R", "G", "B", "A"] };
     let count = raster.channels as usize;
-    let of_channel = |channel: usize| raster.data.chunks_exact(count).map(move |texel| texel[channel]).collect();
+    exr_of((raster.width, raster.height), count, half, |channel, texel| raster.data[texel * count + channel])
+}
+
+/// The same of any numbers, by channel and texel.
+pub(crate) fn exr_of(
+    (width, height): (u32, u32),
+    count: usize,
+    half: bool,
+    value: impl Fn(usize, usize) -> f32 + Sync,
+) -> exr::error::Result<Vec<u8>> {
+    let names: &[&str] = if count == 1 { &["Y"] } else { &["R", "G", "B", "A"] };
+    let size = (width as usize, height as usize);
     let samples = |channel: usize| {
-        let values: Vec<f32> = of_channel(channel);
+        let values: Vec<f32> = (0..size.0 * size.1).map(|texel| value(channel, texel)).collect();
         if !half {
             return FlatSamples::F32(values);
         }
@@ -72,10 +83,10 @@ pub(crate) fn exr_bytes(raster: &FloatRaster, half: bool) -> exr::error::Result<
         halves.convert_from_f32_slice(&values);
         FlatSamples::F16(halves)
     };
-    let channels = (0..count).map(|i| AnyChannel::new(names[i], samples(i))).collect();
+    let channels: Vec<_> = (0..count).into_par_iter().map(|i| AnyChannel::new(names[i], samples(i))).collect();
+    let channels = channels.into_iter().collect();
     let encoding =
         Encoding { compression: Compression::ZIP16, line_order: LineOrder::Increasing, ..Encoding::UNCOMPRESSED };
-    let size = (raster.width as usize, raster.height as usize);
     let layer = Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels));
     let mut bytes = Cursor::new(Vec::new());
     let image = Image::from_layer(layer);

@@ -2,11 +2,11 @@
 //! where no lattice is fine enough. Along each axis of the sky balls fall into squares across it, and each
 //! place adds those within its reach ([`crate::chord_sums`]).
 
+use crate::Isa;
 use crate::chord_sums::{Balls, LANES, Runs};
 use crate::directions::AXES;
 use crate::field::Query;
 use crate::generators::Generator;
-use crate::kernel::Isa;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -27,7 +27,6 @@ pub(crate) struct Depths {
 
 /// Depths in radii, before the extinction's scale.
 pub(crate) fn depths(balls: &[Generator], radius: f64, queries: &[Query], axes: &[DVec3; AXES], isa: Isa) -> Depths {
-    let isa = if Isa::available().contains(&isa) { isa } else { Isa::Plain };
     let along = |toward: &DVec3| {
         let shafts = Shafts::new(balls, radius, *toward);
         let task = |queries: &[Query]| {

@@ -1,10 +1,10 @@
 //! The density from a lattice (Luft07 eq. 2): samples of it on a few points per radius, joined by a cubic B-spline
 //! (Unser 1999). A sum over thousands of balls becomes a look at 64 points.
 
+use crate::Isa;
 use crate::field::Query;
 use crate::generators::Generator;
 use crate::groups::Groups;
-use crate::kernel::Isa;
 use crate::lattice::Lattice;
 use rayon::prelude::*;
 

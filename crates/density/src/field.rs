@@ -1,9 +1,10 @@
 //! The density of many balls and its gradient at many places (Luft07 eq. 2), exact up to f32 rounding:
 //! within 1e-6 of the sum of the weights in reach (the gradient: times 4 / radius).
 
+use crate::Isa;
 use crate::generators::Generator;
 use crate::grid::{Grid, Near};
-use crate::kernel::{Batch, Isa, LANES, Path, Sums};
+use crate::kernel::{Batch, Block, LANES, Sums};
 use crate::moments::Moments;
 use crate::order;
 use glam::{DVec3, Vec3};
@@ -41,7 +42,7 @@ pub struct Field {
     radius: f64,
     /// Radii per meter. A power of two times it is exact, so that block and fine cell of a place agree.
     inverse: f64,
-    path: Path,
+    isa: Isa,
 }
 
 impl Field {
@@ -49,12 +50,12 @@ impl Field {
     pub fn new(generators: &[Generator], radius: f64) -> Field {
         let inverse = 1.0 / radius;
         let (grid, moments) = (Grid::new(generators, inverse), Moments::new(generators, inverse));
-        Field { grid, moments, radius, inverse, path: Path::best() }
+        Field { grid, moments, radius, inverse, isa: Isa::best() }
     }
 
     /// The same field on chosen instructions (plain where the processor lacks them): same bits.
     pub fn on(mut self, isa: Isa) -> Field {
-        self.path = Path::new(isa);
+        self.isa = isa;
         self
     }
 
@@ -132,7 +133,8 @@ impl Field {
         self.grid.near(low, high, origin, &mut scratch.near);
         scratch.batches.clear();
         scratch.batches.extend(block.chunks(LANES).map(|chunk| batch(queries, chunk, origin, self.inverse)));
-        self.path.sum::<GRADIENT>(&scratch.near, &scratch.batches, &mut scratch.sums);
+        let Scratch { near, batches, sums, .. } = scratch;
+        self.isa.dispatch(Block::<GRADIENT> { near, batches, sums });
         let slope = -4.0 * self.inverse;
         (0..block.len())
             .map(|i| {

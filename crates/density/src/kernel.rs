@@ -6,6 +6,7 @@
 //! is fused (rustc never contracts a * b + c), so all paths give the same bits.
 
 use crate::grid::{Ball, Near, ROW_EDGE, Run, gap, half_reach};
+use pulp::{Simd, WithSimd};
 
 /// Queries side by side.
 pub(crate) const LANES: usize = 16;
@@ -27,101 +28,23 @@ pub(crate) struct Sums {
     pub gradient: [[f32; LANES]; 3],
 }
 
-/// Vector instructions to run on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Isa {
-    /// What every processor of the architecture has.
-    Plain,
-    /// AVX2, eight lanes.
-    Avx2,
-    /// AVX-512, sixteen lanes.
-    Avx512,
+/// Sums all batches of a block; `GRADIENT` false leaves the gradients at zero.
+pub(crate) struct Block<'a, const GRADIENT: bool> {
+    /// Balls near it.
+    pub near: &'a Near,
+    /// Its queries.
+    pub batches: &'a [Batch],
+    /// What is found, a sum per batch.
+    pub sums: &'a mut Vec<Sums>,
 }
 
-impl Isa {
-    /// What this processor has, widest last.
-    pub fn available() -> Vec<Isa> {
-        let mut found = vec![Isa::Plain];
-        #[cfg(target_arch = "x86_64")]
-        {
-            if pulp::x86::V3::try_new().is_some() {
-                found.push(Isa::Avx2);
-            }
-            if pulp::x86::V4::try_new().is_some() {
-                found.push(Isa::Avx512);
-            }
-        }
-        found
+impl<const GRADIENT: bool> WithSimd for Block<'_, GRADIENT> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        sum_block::<GRADIENT>(self.near, self.batches, self.sums);
     }
-
-    /// The widest of them.
-    pub(crate) fn best() -> Isa {
-        Isa::available().last().copied().unwrap_or(Isa::Plain)
-    }
-
-    /// Runs something on these instructions, plainly where the processor lacks them.
-    pub(crate) fn dispatch<Op: pulp::WithSimd>(self, op: Op) -> Op::Output {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => match pulp::x86::V3::try_new() {
-                Some(simd) => pulp::Simd::vectorize(simd, op),
-                None => pulp::Simd::vectorize(pulp::Scalar128b, op),
-            },
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => match pulp::x86::V4::try_new() {
-                Some(simd) => pulp::Simd::vectorize(simd, op),
-                None => pulp::Simd::vectorize(pulp::Scalar128b, op),
-            },
-            _ => pulp::Simd::vectorize(pulp::Scalar128b, op),
-        }
-    }
-}
-
-/// A path that this processor was seen to have: only [`Path::new`] makes one.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Path(Isa);
-
-impl Path {
-    /// The path of these instructions, or the plain one where the processor lacks them.
-    pub fn new(isa: Isa) -> Path {
-        Path(if Isa::available().contains(&isa) { isa } else { Isa::Plain })
-    }
-
-    /// The widest path.
-    pub fn best() -> Path {
-        Path(Isa::available().last().copied().unwrap_or(Isa::Plain))
-    }
-
-    /// Sums all batches of a block; `GRADIENT` false leaves the gradients at zero.
-    #[cfg_attr(
-        target_arch = "x86_64",
-        expect(
-            unsafe_code,
-            reason = "run-time dispatch. Calling a function with target features is unsound only on a processor without \
-                      them; `self.0` is private and set only by `new` and `best`, which asked the processor."
-        )
-    )]
-    pub fn sum<const GRADIENT: bool>(self, near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => unsafe { sum_avx2::<GRADIENT>(near, batches, sums) },
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => unsafe { sum_avx512::<GRADIENT>(near, batches, sums) },
-            _ => sum_block::<GRADIENT>(near, batches, sums),
-        }
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sum_avx2<const GRADIENT: bool>(near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
-    sum_block::<GRADIENT>(near, batches, sums);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn sum_avx512<const GRADIENT: bool>(near: &Near, batches: &[Batch], sums: &mut Vec<Sums>) {
-    sum_block::<GRADIENT>(near, batches, sums);
 }
 
 #[inline(always)]

@@ -1,8 +1,8 @@
 //! A lattice of points around balls, and the density on it: read back as a smooth function (cubic B-spline),
 //! or along columns (`columns`). Coordinates are in radii of influence, relative to the plant's center.
 
+use crate::Isa;
 use crate::generators::Generator;
-use crate::kernel::Isa;
 use crate::surface::dense;
 use glam::{DVec3, USizeVec3, Vec3};
 use rayon::prelude::*;

@@ -4,13 +4,13 @@
 //! Evaluated once for each leaf, so that a leaf's corners agree: realigned normals that point outward all
 //! round a crown must break somewhere, and this way never inside a leaf.
 
+use crate::Isa;
 use crate::chords;
 use crate::columns::Columns;
 use crate::directions::{AXES, DIRECTIONS, sky_axes, sky_directions};
 use crate::field::Query;
 use crate::generators::{Foliage, Generator};
 use crate::groups::Groups;
-use crate::kernel::Isa;
 use crate::lattice::{Lattice, Spot};
 use crate::medium::{SkySample, chords as both_chords, extinction, see};
 use crate::order;

@@ -2,13 +2,13 @@
 //! `quality`, as measured against the exact sums over a fixed sample of places. No clock has a say.
 
 use crate::crown::{Crown, EXACT, order_of};
-use crate::isa::Isa;
 use crate::leaves::{Query, Source};
 use crate::octants::OCTANTS;
 use crate::params::{DepthEngine, Params};
 use crate::profile::Profile;
 use crate::reference::{self, transmittance};
 use foliar_numerics::ErrorStats;
+use foliar_numerics::Isa;
 use foliar_schema::{MeasuredError, names};
 
 /// Openings of the tree that are tried, coarsest first.

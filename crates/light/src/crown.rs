@@ -1,11 +1,11 @@
 //! The leaves of a plant, ready to answer places: batches of queries, sums on all threads.
 
-use crate::isa::Isa;
 use crate::kernel::{Batch, Depths, LANES, rounded_off, sum};
 use crate::leaves::{NO_GROUP, Query, Source};
 use crate::octants::OCTANTS;
 use crate::profile::Profile;
 use crate::tree::{Tree, sorted};
+use foliar_numerics::Isa;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::cmp::Ordering;

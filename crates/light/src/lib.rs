@@ -4,7 +4,6 @@ mod alpha;
 mod bake;
 mod choose;
 pub mod crown;
-pub mod isa;
 mod kernel;
 pub mod leaves;
 pub mod model;

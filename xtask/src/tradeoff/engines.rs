@@ -5,11 +5,11 @@ use super::room::cpu_seconds;
 use crate::{repo, shared_trees};
 use anyhow::{Context, Result};
 use foliar_light::crown::{Crown, EXACT, order_of};
-use foliar_light::isa::Isa;
 use foliar_light::leaves::{Foliage, Query};
 use foliar_light::profile::Profile;
 use foliar_light::rays_at;
 use foliar_light::reference::transmittance;
+use foliar_numerics::Isa;
 use foliar_plant::{Plant, sample::Recipe};
 use std::fmt::Write;
 

@@ -1,8 +1,8 @@
 //! The sparse lattice: blocks of 8^3 corners wherever a ball reaches, and what each block is.
 
 use super::bins::{Bins, Part, Run};
-use super::splat::{CORNERS, EDGE, Splatter, Spot};
-use crate::Generator;
+use super::splat::{CORNERS, EDGE, Spot, add};
+use crate::{Generator, Isa};
 use foliar_numerics::{MORTON_BITS, morton3, morton3_inverse};
 use glam::{DVec3, IVec3};
 use rayon::prelude::*;
@@ -46,7 +46,7 @@ pub(super) struct Lattice {
     radius: f64,
     cell: f64,
     tau: f32,
-    splatter: Splatter,
+    isa: Isa,
 }
 
 /// Buffers of one thread.
@@ -108,8 +108,8 @@ pub(super) fn sort(blocks: &mut Vec<u64>) {
 
 impl Lattice {
     /// A lattice with corners at multiples of `cell`, over balls that lie relative to its origin.
-    pub fn new(generators: &[Generator], radius: f64, cell: f64, tau: f64, splatter: Splatter) -> Self {
-        Lattice { bins: Bins::new(generators, radius, bin_edge(radius, cell)), radius, cell, tau: tau as f32, splatter }
+    pub fn new(generators: &[Generator], radius: f64, cell: f64, tau: f64, isa: Isa) -> Self {
+        Lattice { bins: Bins::new(generators, radius, bin_edge(radius, cell)), radius, cell, tau: tau as f32, isa }
     }
 
     /// What each block is, within `budget` bytes.
@@ -166,7 +166,7 @@ impl Lattice {
         (0..PARTS).any(|index| {
             let part = Part { index, of: PARTS };
             self.bins.take(&scratch.runs, part, middle, half as f32, &mut scratch.spots);
-            self.splatter.add(&scratch.spots, self.spacing(), full, sums)
+            add(self.isa, &scratch.spots, self.spacing(), full, sums)
         })
     }
 
@@ -186,8 +186,8 @@ impl Lattice {
     }
 
     /// What sums are made with.
-    pub fn splatter(&self) -> Splatter {
-        self.splatter
+    pub fn isa(&self) -> Isa {
+        self.isa
     }
 }
 

@@ -1,7 +1,7 @@
 //! The sparse lattice's blocks, filled for a whole box: a dense array of densities.
 
 use super::blocks::{Lattice, code};
-use super::splat::{EDGE, Splatter};
+use super::splat::EDGE;
 use crate::{Generator, Isa};
 use glam::{IVec3, USizeVec3};
 
@@ -17,7 +17,7 @@ pub(crate) fn dense(
     (first, size): (IVec3, USizeVec3),
     isa: Isa,
 ) -> Vec<f32> {
-    let lattice = Lattice::new(balls, radius, cell, f64::INFINITY, Splatter::new(isa));
+    let lattice = Lattice::new(balls, radius, cell, f64::INFINITY, isa);
     let edge = IVec3::splat(EDGE as i32);
     let (low, high) = (first.div_euclid(edge), (first + size.as_ivec3() - 1).div_euclid(edge));
     let rows = (low.z..=high.z).flat_map(|z| (low.y..=high.y).map(move |y| (y, z)));

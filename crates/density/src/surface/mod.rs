@@ -20,7 +20,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-use crate::{Field, Generator, NO_GROUP, Query};
+use crate::{Field, Generator, Isa, NO_GROUP, Query};
 use blocks::{Lattice, TooMuch, bytes, touched};
 pub(crate) use dense::dense;
 pub use error::SurfaceError;
@@ -34,7 +34,6 @@ pub use refine::TOLERANCE;
 use refine::{Frame, Vertices};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use splat::Splatter;
 
 /// Density and its gradient at a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -135,7 +134,7 @@ const MEGABYTE: f64 = 1e6;
 /// [`SurfaceError`] for parameters out of range and for cells too small for the memory allowed.
 pub fn extract(field: &impl DensityField, balls: &Balls, params: &SurfaceParams) -> Result<Surface, SurfaceError> {
     SurfaceError::check(balls, params)?;
-    let mesher = Mesher::new(balls, params, Splatter::best());
+    let mesher = Mesher::new(balls, params, Isa::best());
     let made = mesher.and_then(|m| m.mesh(|| Whole { field, origin: m.frame.origin }));
     made.map_err(|TooMuch| refusal(balls, params))
 }
@@ -145,12 +144,12 @@ pub fn extract(field: &impl DensityField, balls: &Balls, params: &SurfaceParams)
 /// # Errors
 /// As [`extract`].
 pub fn extract_fast(balls: &Balls, params: &SurfaceParams) -> Result<Surface, SurfaceError> {
-    extract_on(balls, params, Splatter::best())
+    extract_on(balls, params, Isa::best())
 }
 
-fn extract_on(balls: &Balls, params: &SurfaceParams, splatter: Splatter) -> Result<Surface, SurfaceError> {
+fn extract_on(balls: &Balls, params: &SurfaceParams, isa: Isa) -> Result<Surface, SurfaceError> {
     SurfaceError::check(balls, params)?;
-    let made = Mesher::new(balls, params, splatter).and_then(|m| m.mesh(|| Nearby::new(&m.lattice)));
+    let made = Mesher::new(balls, params, isa).and_then(|m| m.mesh(|| Nearby::new(&m.lattice)));
     made.map_err(|TooMuch| refusal(balls, params))
 }
 
@@ -165,12 +164,12 @@ struct Mesher {
 }
 
 impl Mesher {
-    fn new(balls: &Balls, params: &SurfaceParams, splatter: Splatter) -> Result<Mesher, TooMuch> {
+    fn new(balls: &Balls, params: &SurfaceParams, isa: Isa) -> Result<Mesher, TooMuch> {
         let (radius, origin, cell) = (balls.radius_m, middle(balls.generators), params.cell(balls.radius_m));
         let generators = relative(balls.generators, origin);
         let budget = (params.memory_mb * MEGABYTE) as usize;
         let codes = touched(&generators, radius, cell, budget / TOUCHED_BYTES)?;
-        let lattice = Lattice::new(&generators, radius, cell, balls.threshold, splatter);
+        let lattice = Lattice::new(&generators, radius, cell, balls.threshold, isa);
         let guess = if params.refinement == Refinement::Newton { Guess::Cubic } else { Guess::Linear };
         Ok(Mesher { lattice, codes, frame: Frame { origin, cell, tau: balls.threshold }, guess, budget })
     }

@@ -2,7 +2,7 @@
 
 use super::bins::Run;
 use super::blocks::{Lattice, block};
-use super::splat::{LANES, Lanes, Spot};
+use super::splat::{LANES, Lanes, Spot, probe};
 use super::{DensityField, Probe};
 use glam::{DVec3, Vec3};
 
@@ -64,7 +64,7 @@ impl Prober for Nearby<'_> {
                     lanes.place[axis][lane] = local[axis];
                 }
             }
-            let sums = self.lattice.splatter().probe(&self.spots, &lanes);
+            let sums = probe(self.lattice.isa(), &self.spots, &lanes);
             found.extend((0..places.len()).map(|lane| Probe {
                 density: f64::from(sums.density[lane]),
                 gradient: DVec3::from_array(sums.gradient.map(|g| f64::from(g[lane]))) * slope,

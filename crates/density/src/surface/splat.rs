@@ -5,6 +5,7 @@
 //! rustc fuses nothing: all paths give the same bits.
 
 use crate::Isa;
+use pulp::{Simd, WithSimd};
 
 /// Corners along an edge of a block.
 pub(super) const EDGE: usize = 8;
@@ -40,79 +41,45 @@ pub(super) struct Sums {
     pub gradient: [[f32; LANES]; 3],
 }
 
-/// Instructions that this processor was seen to have: only [`Splatter::new`] makes one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Splatter(Isa);
+/// Adds balls to corners `spacing` radii apart. Stops, true, as soon as no corner is below `full`: nothing is ever
+/// subtracted, so none would be in the end.
+pub(super) fn add(isa: Isa, spots: &[Spot], spacing: f32, full: f32, sums: &mut [f32; CORNERS]) -> bool {
+    isa.dispatch(Add { spots, spacing, full, sums })
+}
 
-impl Splatter {
-    /// These instructions, or the plain ones where the processor lacks them.
-    pub fn new(isa: Isa) -> Self {
-        Splatter(if Isa::available().contains(&isa) { isa } else { Isa::Plain })
-    }
+/// Density and gradient at places.
+pub(super) fn probe(isa: Isa, spots: &[Spot], lanes: &Lanes) -> Sums {
+    isa.dispatch(Probe { spots, lanes })
+}
 
-    /// The widest instructions.
-    pub fn best() -> Self {
-        Splatter::new(Isa::available().last().copied().unwrap_or(Isa::Plain))
-    }
+struct Add<'a> {
+    spots: &'a [Spot],
+    spacing: f32,
+    full: f32,
+    sums: &'a mut [f32; CORNERS],
+}
 
-    /// Adds balls to corners `spacing` radii apart. Stops, true, as soon as no corner is below `full`:
-    /// nothing is ever subtracted, so none would be in the end.
-    #[cfg_attr(
-        target_arch = "x86_64",
-        expect(
-            unsafe_code,
-            reason = "run-time dispatch. Calling a function with target features is unsound only on a processor without \
-                      them; `self.0` is private and set only by `new`, which asked the processor."
-        )
-    )]
-    pub fn add(self, spots: &[Spot], spacing: f32, full: f32, sums: &mut [f32; CORNERS]) -> bool {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => unsafe { add_avx2(spots, spacing, full, sums) },
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => unsafe { add_avx512(spots, spacing, full, sums) },
-            _ => add_all(spots, spacing, full, sums),
-        }
-    }
+impl WithSimd for Add<'_> {
+    type Output = bool;
 
-    /// Density and gradient at places.
-    #[cfg_attr(
-        target_arch = "x86_64",
-        expect(unsafe_code, reason = "run-time dispatch, sound for the reason that `add` gives")
-    )]
-    pub fn probe(self, spots: &[Spot], lanes: &Lanes) -> Sums {
-        match self.0 {
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx2 => unsafe { probe_avx2(spots, lanes) },
-            #[cfg(target_arch = "x86_64")]
-            Isa::Avx512 => unsafe { probe_avx512(spots, lanes) },
-            _ => probe_all(spots, lanes),
-        }
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        add_all(self.spots, self.spacing, self.full, self.sums)
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn add_avx2(spots: &[Spot], spacing: f32, full: f32, sums: &mut [f32; CORNERS]) -> bool {
-    add_all(spots, spacing, full, sums)
+struct Probe<'a> {
+    spots: &'a [Spot],
+    lanes: &'a Lanes,
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn add_avx512(spots: &[Spot], spacing: f32, full: f32, sums: &mut [f32; CORNERS]) -> bool {
-    add_all(spots, spacing, full, sums)
-}
+impl WithSimd for Probe<'_> {
+    type Output = Sums;
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn probe_avx2(spots: &[Spot], lanes: &Lanes) -> Sums {
-    probe_all(spots, lanes)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-fn probe_avx512(spots: &[Spot], lanes: &Lanes) -> Sums {
-    probe_all(spots, lanes)
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Sums {
+        probe_all(self.spots, self.lanes)
+    }
 }
 
 #[inline(always)]
@@ -202,7 +169,7 @@ mod tests {
         let balls = spots(300);
         let run = |isa| {
             let mut sums = [0.0; CORNERS];
-            Splatter::new(isa).add(&balls, 0.125, f32::INFINITY, &mut sums);
+            add(isa, &balls, 0.125, f32::INFINITY, &mut sums);
             sums.map(f32::to_bits)
         };
         let plain = run(Isa::Plain);
@@ -215,7 +182,7 @@ mod tests {
     fn corners_hold_the_sum_of_the_balls() {
         let (balls, spacing) = (spots(300), 0.125f32);
         let mut sums = [0.0; CORNERS];
-        assert!(!Splatter::best().add(&balls, spacing, f32::INFINITY, &mut sums));
+        assert!(!add(Isa::best(), &balls, spacing, f32::INFINITY, &mut sums));
         for (index, &sum) in sums.iter().enumerate() {
             let at = [index % EDGE, index / EDGE % EDGE, index / LAYER].map(|k| (k as f64 - 3.5) * f64::from(spacing));
             let (mut expected, mut weights) = (0.0, 0.0);
@@ -234,8 +201,8 @@ mod tests {
     fn a_full_block_stops_early_and_is_full_in_the_end() {
         let balls = spots(2000);
         let (mut early, mut whole) = ([0.0; CORNERS], [0.0; CORNERS]);
-        assert!(Splatter::best().add(&balls, 0.125, 5.0, &mut early));
-        assert!(!Splatter::best().add(&balls, 0.125, f32::INFINITY, &mut whole));
+        assert!(add(Isa::best(), &balls, 0.125, 5.0, &mut early));
+        assert!(!add(Isa::best(), &balls, 0.125, f32::INFINITY, &mut whole));
         assert!(early.iter().zip(&whole).all(|(e, w)| 5.0 <= *e && e <= w));
         assert!(early.iter().zip(&whole).any(|(e, w)| e < w));
     }

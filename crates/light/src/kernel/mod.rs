@@ -11,10 +11,10 @@ mod lanes;
 mod near;
 mod nodes;
 
-use crate::isa::Isa;
 use crate::profile::Profile;
 use crate::tree::{BLOCK, Node, Tree};
 use blocks::add_block;
+use foliar_numerics::Isa;
 use glam::DVec3;
 use nodes::add_node;
 use pulp::{Simd, WithSimd};
@@ -46,20 +46,7 @@ pub(crate) struct Batch {
 /// Depths of a batch on some instructions, or on plain ones where the processor lacks them; nodes wider than `opening`
 /// times their distance are opened, 0 opens all.
 pub(crate) fn sum(isa: Isa, tree: &Tree, batch: &Batch, opening: f64) -> Depths {
-    let work = Work { tree, batch, opening };
-    match isa {
-        #[cfg(target_arch = "x86_64")]
-        Isa::Avx512 => pulp::x86::V4::try_new().map_or_else(|| plain(work), |simd| Simd::vectorize(simd, work)),
-        #[cfg(target_arch = "x86_64")]
-        Isa::Avx2 => pulp::x86::V3::try_new().map_or_else(|| plain(work), |simd| Simd::vectorize(simd, work)),
-        #[cfg(target_arch = "aarch64")]
-        Isa::Neon => pulp::aarch64::Neon::try_new().map_or_else(|| plain(work), |simd| Simd::vectorize(simd, work)),
-        _ => plain(work),
-    }
-}
-
-fn plain(work: Work) -> Depths {
-    work.with_simd(pulp::Scalar128b)
+    isa.dispatch(Work { tree, batch, opening })
 }
 
 /// What one batch asks.

@@ -2,12 +2,12 @@
 
 use super::oracle;
 use crate::crown::{Crown, EXACT};
-use crate::isa::Isa;
 use crate::leaves::{NO_GROUP, Query, Source};
 use crate::octants::{OCTANTS, direction};
 use crate::profile::{MOST_DEPTH, Profile};
 use crate::reference::{self, transmittance};
 use crate::ways;
+use foliar_numerics::Isa;
 use foliar_numerics::{fibonacci_sphere, radical_inverse};
 use glam::DVec3;
 

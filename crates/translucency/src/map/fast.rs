@@ -3,6 +3,8 @@
 use super::pyramid::Image;
 use super::{LeafMap, Tables};
 use crate::light::BASIS;
+use foliar_numerics::Isa;
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 /// Rows that one task takes.
@@ -10,6 +12,11 @@ const ROWS: usize = 8;
 
 /// Coefficients of every texel (three, interleaved), row by row; zero where there is no leaf.
 pub fn coefficient_map(map: &LeafMap, tables: &Tables) -> Vec<f32> {
+    coefficient_map_on(map, tables, Isa::best())
+}
+
+/// The same on chosen instructions: the same bits.
+pub(crate) fn coefficient_map_on(map: &LeafMap, tables: &Tables, isa: Isa) -> Vec<f32> {
     let mut levels = vec![entered(map, tables)];
     let deepest = tables.bank.filters.iter().map(|filter| filter.level).max().unwrap_or(0);
     for level in 0..deepest {
@@ -21,14 +28,14 @@ pub fn coefficient_map(map: &LeafMap, tables: &Tables) -> Vec<f32> {
         .bank
         .filters
         .iter()
-        .map(|filter| (filter.level > 0).then(|| levels[filter.level].filtered(&filter.x, &filter.y)))
+        .map(|filter| (filter.level > 0).then(|| levels[filter.level].filtered((&filter.x, &filter.y), isa)))
         .collect();
     levels.truncate(1);
     let full = &levels[0];
     let mut out = vec![0.0; map.width * map.height * 3];
     out.par_chunks_mut(map.width.max(1) * 3 * ROWS).enumerate().for_each_init(Rows::default, |rows, (block, out)| {
         for (i, out) in out.chunks_exact_mut(map.width * 3).enumerate() {
-            rows.mix(map, tables, (full, &wide), block * ROWS + i, out);
+            isa.dispatch(Mix { map, tables, full, wide: &wide, y: block * ROWS + i, rows, out });
         }
     });
     out
@@ -59,38 +66,45 @@ struct Rows {
     filters: Vec<Vec<f32>>,
 }
 
-impl Rows {
-    fn mix(
-        &mut self,
-        map: &LeafMap,
-        tables: &Tables,
-        (full, wide): (&Image, &[Option<Image>]),
-        y: usize,
-        out: &mut [f32],
-    ) {
+/// One row of the map.
+struct Mix<'a> {
+    map: &'a LeafMap,
+    tables: &'a Tables,
+    full: &'a Image,
+    wide: &'a [Option<Image>],
+    y: usize,
+    rows: &'a mut Rows,
+    out: &'a mut [f32],
+}
+
+impl WithSimd for Mix<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Mix { map, tables, full, wide, y, rows, out } = self;
         let thickness = &map.thickness_mm[y * map.width..(y + 1) * map.width];
         let Some(first) = thickness.iter().position(|d| *d > 0.0) else { return };
         let last = thickness.iter().rposition(|d| *d > 0.0).unwrap_or(first);
         // Beside the leaf nothing leaves.
         let columns = first..last + 1;
-        self.filters.resize_with(wide.len(), Vec::new);
-        for (j, filter) in tables.bank.filters.iter().enumerate().skip(1) {
-            let row = &mut self.filters[j];
-            row.resize(out.len(), 0.0);
-            match &wide[j] {
-                Some(image) => image.drawn_up(y, &mut self.padded, row),
-                None => full.filtered_row(y, (&filter.x, &filter.y), &columns, &mut self.padded, row),
+        rows.filters.resize_with(wide.len(), Vec::new);
+        for ((row, filter), wide) in rows.filters.iter_mut().zip(&tables.bank.filters).zip(wide) {
+            // A texel's three numbers are read as four.
+            row.resize(out.len() + 1, 0.0);
+            match wide {
+                Some(image) => image.drawn_up(y, &mut rows.padded, &mut row[..out.len()]),
+                None => full.filtered_row(y, (&filter.x, &filter.y), &columns, &mut rows.padded, row),
             }
         }
         for (x, d) in thickness.iter().enumerate().filter(|(_, d)| **d > 0.0) {
-            let (low, high, share) = tables.mix(*d);
-            let weight = |j: usize| low[j] + share * (high[j] - low[j]);
-            let texel = &mut out[3 * x..3 * x + 3];
-            (0..3).for_each(|c| texel[c] = weight(0) * full.row(y)[3 * x + c]);
-            for j in 1..wide.len() {
-                let (w, row) = (weight(j), &self.filters[j][3 * x..3 * x + 3]);
-                (0..3).for_each(|c| texel[c] += w * row[c]);
+            let weights = tables.mix(*d);
+            let mut sum = [0.0f32; 4];
+            for (row, weight) in rows.filters.iter().zip(weights) {
+                let texel = &row[3 * x..3 * x + 4];
+                (0..4).for_each(|c| sum[c] += weight * texel[c]);
             }
+            out[3 * x..3 * x + 3].copy_from_slice(&sum[..3]);
         }
     }
 }

@@ -9,6 +9,8 @@ pub mod reference;
 mod tables;
 
 pub use fast::coefficient_map;
+#[cfg(test)]
+pub(crate) use fast::coefficient_map_on;
 pub use leaf::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
 pub use recipe::{Model, Recipe, Spreading, Tissue};
 pub use tables::Tables;

@@ -1,6 +1,8 @@
 //! Images of three channels, halved; rows filtered across and down.
 
 use crate::kernel::Taps;
+use foliar_numerics::Isa;
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -29,6 +31,7 @@ impl Image {
         Image { width, height, data, full: [width, height], level: 0 }
     }
 
+    #[inline(always)]
     pub fn row(&self, y: usize) -> &[f32] {
         &self.data[y * self.width * 3..(y + 1) * self.width * 3]
     }
@@ -67,6 +70,7 @@ impl Image {
 
     /// The texels `columns` of a row filtered both ways, into the same place of `out`; `padded` is room for them and their
     /// surroundings.
+    #[inline(always)]
     pub fn filtered_row(
         &self,
         y: usize,
@@ -90,6 +94,7 @@ impl Image {
         }
     }
 
+    #[inline(always)]
     fn column(&self, y: usize, down: &Taps, columns: &Range<usize>, out: &mut [f32]) {
         let row = |y: usize| &self.row(y)[3 * columns.start..3 * columns.end];
         out.iter_mut().zip(row(y)).for_each(|(sum, v)| *sum = down.0[0] * v);
@@ -108,16 +113,16 @@ impl Image {
     }
 
     /// The whole image filtered.
-    pub fn filtered(&self, across: &Taps, down: &Taps) -> Image {
+    pub fn filtered(&self, taps: (&Taps, &Taps), isa: Isa) -> Image {
         let mut data = vec![0.0; self.data.len()];
-        let all = 0..self.width;
         data.par_chunks_exact_mut(self.width * 3).enumerate().for_each_init(Vec::new, |padded, (y, out)| {
-            self.filtered_row(y, (across, down), &all, padded, out);
+            isa.dispatch(Filtered { image: self, y, taps, padded, out });
         });
         Image { data, ..*self }
     }
 
     /// Row `y` of the full image by straight lines between cells, into `out`.
+    #[inline(always)]
     pub fn drawn_up(&self, y: usize, coarse: &mut Vec<f32>, out: &mut [f32]) {
         let span = 1usize << self.level;
         let (top, share) = ((y >> self.level) + self.before(), (y & (span - 1)) as f32 / span as f32);
@@ -131,5 +136,23 @@ impl Image {
                 (0..3).for_each(|c| texel[c] = a[c] + share * (b[c] - a[c]));
             }
         }
+    }
+}
+
+/// One row of an image, filtered.
+struct Filtered<'a> {
+    image: &'a Image,
+    y: usize,
+    taps: (&'a Taps, &'a Taps),
+    padded: &'a mut Vec<f32>,
+    out: &'a mut [f32],
+}
+
+impl WithSimd for Filtered<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.image.filtered_row(self.y, self.taps, &(0..self.image.width), self.padded, self.out);
     }
 }

@@ -18,6 +18,11 @@ const TILTS: usize = 64;
 /// A normal's z where the limit of no tilt is taken.
 const NEARLY_FLAT: f64 = 1.0 - 1e-6;
 
+/// Filters that a bank may have.
+pub const MOST_FILTERS: usize = 16;
+/// A weight for each filter.
+pub type Weights = [f32; MOST_FILTERS];
+
 /// Tables of one leaf.
 #[derive(Clone, Debug)]
 pub struct Tables {
@@ -28,7 +33,7 @@ pub struct Tables {
     /// Greatest thickness, mm.
     pub greatest_mm: f64,
     /// Per fine entry, transmittance times the weight of each filter.
-    mix: Vec<f32>,
+    mix: Vec<Weights>,
     /// Per tilt and coarse entry: along the tilt over its sine, and along the axis.
     source: Vec<[f32; 2]>,
 }
@@ -83,21 +88,23 @@ impl Tables {
     }
 
     /// Entry for a thickness, and share of the next.
+    #[inline(always)]
     fn place(&self, d: f32, entries: usize) -> (usize, f32) {
         let whole = (d / self.greatest_mm as f32).clamp(0.0, 1.0).sqrt() * (entries - 1) as f32;
         let at = (whole as usize).min(entries - 2);
         (at, whole - at as f32)
     }
 
-    /// Weights of the filters, transmittance included, at a thickness: two rows and the share of the second.
-    pub fn mix(&self, d: f32) -> (&[f32], &[f32], f32) {
-        let count = self.bank.filters.len();
+    /// Weights of the filters at a thickness, transmittance included; 0 beyond the last filter.
+    #[inline(always)]
+    pub fn mix(&self, d: f32) -> Weights {
         let (at, share) = self.place(d, FINE);
-        let rows = &self.mix[at * count..(at + 2) * count];
-        (&rows[..count], &rows[count..], share)
+        let (low, high) = (&self.mix[at], &self.mix[at + 1]);
+        std::array::from_fn(|j| low[j] + share * (high[j] - low[j]))
     }
 
     /// What a texel takes in: (along the tilt over its sine, along the axis), 1 for a flat leaf from straight ahead.
+    #[inline(always)]
     pub fn source(&self, d: f32, normal_z: f32) -> [f32; 2] {
         let tilt = normal_z.clamp(0.0, 1.0) * (TILTS - 1) as f32;
         let row = (tilt as usize).min(TILTS - 2);
@@ -110,8 +117,7 @@ impl Tables {
 
     /// Transmittance from straight ahead at a thickness, mm.
     pub fn transmittance(&self, d: f32) -> f32 {
-        let (low, high, share) = self.mix(d);
-        low.iter().zip(high).map(|(a, b)| a + share * (b - a)).sum()
+        self.mix(d).iter().sum()
     }
 }
 
@@ -121,7 +127,7 @@ fn bank(recipe: &Recipe, solved: &[f64], greatest: f64) -> Bank {
     }
     let boundary = Boundary::new(recipe.index());
     let spreads: Vec<Spread> = solved.par_iter().filter_map(|d| recipe.spread(*d, &boundary)).collect();
-    let count = recipe.filters.unwrap_or_else(|| Bank::enough(greatest, recipe.texel_mm));
+    let count = recipe.filters.unwrap_or_else(|| Bank::enough(greatest, recipe.texel_mm)).min(MOST_FILTERS);
     Bank::fit(&spreads, greatest, recipe.texel_mm, count)
 }
 
@@ -131,14 +137,14 @@ fn thickness(entry: usize, entries: usize, greatest: f64) -> f64 {
     greatest * share * share
 }
 
-fn mix(grid: &Grid, entrances: &[Entrance], bank: &Bank, greatest: f64) -> Vec<f32> {
+fn mix(grid: &Grid, entrances: &[Entrance], bank: &Bank, greatest: f64) -> Vec<Weights> {
     let row = |entry: usize| {
         let d = thickness(entry, FINE, greatest);
         let t = libm::exp(grid.between(d, |at| libm::log(entrances[at].transmittance)));
         let weight = move |j: usize| (t * grid.between(d, |at| bank.weights[at][j])) as f32;
-        (0..bank.filters.len()).map(weight).collect::<Vec<f32>>()
+        std::array::from_fn(|j| if j < bank.filters.len() { weight(j) } else { 0.0 })
     };
-    (0..FINE).into_par_iter().flat_map_iter(row).collect()
+    (0..FINE).into_par_iter().map(row).collect()
 }
 
 fn source(recipe: &Recipe, grid: &Grid, entrances: &[Entrance], curve: Curve, greatest: f64) -> Vec<[f32; 2]> {

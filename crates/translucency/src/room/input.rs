@@ -6,7 +6,7 @@ use crate::map::{LEAST_THICKNESS_MM, LeafMap, normals_from_heights};
 use crate::photo::{ColorEstimate, Look, thickness_from_photo};
 use crate::presets::Preset;
 use foliar_bake::{BakeError, MapRaster, Maps};
-use foliar_numerics::linear_of_srgb;
+use foliar_numerics::{find_first, linear_of_srgb};
 use foliar_schema::{Finding, code, names};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -123,14 +123,20 @@ impl Sheet {
         let alpha: Option<Vec<f32>> = maps.get(names::MAP_ALPHA).map(|map| channel(map).collect());
         let covered = |at: usize, value: f32| alpha.as_ref().map_or(value > 0.0, |alpha| alpha[at] >= COVERED);
         let stored = |value: f32| params.thickness_offset_mm + scale * f64::from(value);
-        let texel = |(at, texel): (usize, &[f32])| {
-            if covered(at, texel[0]) { stored(texel[0]).max(LEAST_THICKNESS_MM) as f32 } else { 0.0 }
+        let (width, channels) = (self.width, map.raster.channels.max(1) as usize);
+        let row = |(y, (row, texels)): (usize, (&mut [f32], &[f32]))| {
+            let mut counts = [0usize; 2];
+            for (x, (thickness, texel)) in row.iter_mut().zip(texels.chunks_exact(channels)).enumerate() {
+                let (value, is_leaf) = (stored(texel[0]), covered(y * width + x, texel[0]));
+                *thickness = if is_leaf { value.max(LEAST_THICKNESS_MM) as f32 } else { 0.0 };
+                counts[0] += usize::from(is_leaf && value < LEAST_THICKNESS_MM);
+                counts[1] += usize::from(alpha.is_none() && texel[0] < 0.0);
+            }
+            counts
         };
-        let texels = || map.raster.data.par_chunks_exact(map.raster.channels.max(1) as usize).enumerate();
-        self.thickness_mm = texels().map(texel).collect();
-        let is_thin = |(at, texel): (usize, &[f32])| covered(at, texel[0]) && stored(texel[0]) < LEAST_THICKNESS_MM;
-        let thin = texels().filter(|(at, texel)| is_thin((*at, *texel))).count();
-        let below = texels().filter(|(_, texel)| alpha.is_none() && texel[0] < 0.0).count();
+        self.thickness_mm = vec![0.0; width * self.height];
+        let rows = self.thickness_mm.par_chunks_mut(width).zip(map.raster.data.par_chunks(width * channels));
+        let [thin, below] = rows.enumerate().map(row).reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
         if below > 0 {
             let message = format!("{below} texels hold a thickness below 0: taken for no leaf");
             self.findings.push(finding(&code::MAP_THIN, name, message));
@@ -180,7 +186,7 @@ impl Sheet {
             (x + 1 < self.width && rises(at(x, y), at(x + 1, y), right))
                 || (y + 1 < self.height && rises(at(x, y), at(x, y + 1), down))
         };
-        let rows = 0..self.height;
+        let rows = (0..self.height).into_par_iter();
         let walls: usize = rows.map(|y| (0..self.width).filter(|x| wall(*x, y)).count()).sum();
         if walls > 0 {
             let message = format!(
@@ -247,19 +253,24 @@ impl Sheet {
         let is_black = |values: &[f32]| values[..3].iter().all(|v| *v == 0.0);
         let decoded = |values: &[f32]| [decode(values[0]) * turn[0], decode(values[1]) * turn[1], decode(values[2])];
         let length = |n: [f32; 3]| n.iter().map(|v| v * v).sum::<f32>().sqrt();
-        let texel = |values: &[f32]| {
-            let n = decoded(values);
-            let length = length(n);
-            if length > f32::EPSILON && !is_black(values) { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] }
-        };
-        let texels = || map.raster.data.par_chunks_exact(channels);
-        let normals = texels().map(texel).collect();
         if map.bits < 32 {
             self.warn_of_slopes(name, map.bits, 2.0 / steps(map.bits));
         }
-        let is_none = |values: &[f32]| is_black(values) || length(decoded(values)) <= f32::EPSILON;
-        let leaf = |at: usize| self.thickness_mm[at] > 0.0;
-        let none = texels().enumerate().filter(|(at, values)| leaf(*at) && is_none(values)).count();
+        let row = |row: &mut [[f32; 3]], texels: &[f32], thickness: &[f32]| {
+            let mut none = 0usize;
+            for ((normal, values), d) in row.iter_mut().zip(texels.chunks_exact(channels)).zip(thickness) {
+                let n = decoded(values);
+                let length = length(n);
+                let is = length > f32::EPSILON && !is_black(values);
+                *normal = if is { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] };
+                none += usize::from(!is && *d > 0.0);
+            }
+            none
+        };
+        let mut normals = vec![[0.0; 3]; self.thickness_mm.len()];
+        let rows = normals.par_chunks_mut(self.width).zip(map.raster.data.par_chunks(self.width * channels));
+        let none: usize =
+            rows.zip(self.thickness_mm.par_chunks(self.width)).map(|((to, from), d)| row(to, from, d)).sum();
         if none > 0 {
             let message = format!("{none} normals of the leaf have no length: taken for straight ones");
             self.findings.push(finding(&code::MAP_NORMALS, name, message));
@@ -306,7 +317,7 @@ impl Sheet {
 /// Whether floats are normals themselves, not half of n + 1: where any is negative, or where they are nearer to unit length
 /// as they stand (a flat leaf is 0, 0, 1). Texels of nothing but 0 say nothing.
 fn are_signed(data: &[f32], channels: usize) -> bool {
-    if data.par_iter().any(|v| *v < 0.0) {
+    if find_first(data, |v| *v < 0.0).is_some() {
         return true;
     }
     let off = |n: [f32; 3]| f64::from((n.iter().map(|v| v * v).sum::<f32>().sqrt() - 1.0).abs());
@@ -358,7 +369,7 @@ fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result
         let problem = format!("has {} channels and {} numbers", raster.channels, raster.data.len());
         return Err(bad(name, problem, "a normal map has three channels, any other at least one"));
     }
-    match raster.data.par_iter().position_first(|v| !v.is_finite()) {
+    match find_first(&raster.data, |v| !v.is_finite()) {
         None => Ok(()),
         Some(at) => {
             let texel = at / raster.channels as usize;

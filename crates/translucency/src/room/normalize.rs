@@ -16,8 +16,15 @@ pub struct Found {
 /// Divides the coefficients as the parameters ask.
 pub fn finish(map: &LeafMap, coefficients: &mut [f32], tables: &Tables, params: &Params) -> Found {
     let diffuse = |c: &[f32]| diffuse(c, tables);
-    let texels = || coefficients.chunks_exact(3).zip(&map.thickness_mm).filter(|(_, d)| **d > 0.0);
-    let (sum, count) = texels().fold((0.0, 0usize), |(sum, count), (c, _)| (sum + f64::from(diffuse(c)), count + 1));
+    let row = |(c, d): (&[f32], &[f32])| {
+        let texels = c.chunks_exact(3).zip(d).filter(|(_, d)| **d > 0.0);
+        texels.fold((0.0, 0usize), |(sum, count), (c, _)| (sum + f64::from(diffuse(c)), count + 1))
+    };
+    let width = map.width.max(1);
+    let rows = coefficients.par_chunks(3 * width).zip(map.thickness_mm.par_chunks(width));
+    // Added in the order of the rows, whoever summed them.
+    let rows: Vec<(f64, usize)> = rows.map(row).collect();
+    let (sum, count) = rows.into_iter().fold((0.0, 0), |(sum, count), (s, c)| (sum + s, count + c));
     let mean = sum / count.max(1) as f64;
     match params.normalize {
         Normalize::None => {}

@@ -2,9 +2,10 @@
 
 use super::oracle;
 use crate::light::{Curve, Entry, Fit, Projection};
-use crate::map::{LeafMap, Model, Recipe, Spreading, Tables, coefficient_map, reference};
+use crate::map::{LeafMap, Model, Recipe, Spreading, Tables, coefficient_map, coefficient_map_on, reference};
 use crate::oracle::{Golden, bumps_error, spread_error};
 use crate::transport::Medium;
+use foliar_numerics::Isa;
 use glam::DVec3;
 use serde_json::Value;
 
@@ -122,6 +123,18 @@ fn threads_change_nothing() {
     let one: Vec<u32> = with(1).iter().map(|v| v.to_bits()).collect();
     for threads in [2, 5] {
         assert_eq!(one, with(threads).iter().map(|v| v.to_bits()).collect::<Vec<_>>());
+    }
+}
+
+/// Nor do the vector instructions that there are.
+#[test]
+fn instructions_change_nothing() {
+    let (map, recipe) = bumps(70, 45);
+    let tables = Tables::new(&recipe, map.range_mm().unwrap(), map.median_mm().unwrap());
+    assert!(tables.bank.filters.iter().any(|filter| filter.level > 0), "a halved image is filtered too");
+    let bits = |isa| coefficient_map_on(&map, &tables, isa).iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    for isa in Isa::available() {
+        assert!(bits(isa) == bits(Isa::Plain), "{isa:?}");
     }
 }
 

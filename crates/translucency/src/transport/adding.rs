@@ -7,7 +7,8 @@
 use super::boundary::{LEAST_COSINE, critical_cosine, fresnel_inside, is_matched, plate, refracted};
 use super::matrix::Matrix;
 use super::{Layer, Medium};
-use foliar_numerics::{gauss_legendre, legendre};
+use foliar_numerics::{Isa, gauss_legendre, legendre};
+use pulp::{Simd, WithSimd};
 
 /// Scattering times thickness below which a leaf is a clear plate: total reflection makes the star product singular there.
 const CLEAR: f64 = 1e-12;
@@ -88,6 +89,28 @@ impl Stack {
     }
 }
 
+/// A layer laid on its like so many times.
+struct Doubling {
+    r: Matrix,
+    t: Matrix,
+    doublings: u32,
+}
+
+impl WithSimd for Doubling {
+    type Output = (Matrix, Matrix);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> (Matrix, Matrix) {
+        let Doubling { mut r, mut t, doublings } = self;
+        for _ in 0..doublings {
+            let between = t.over(&r.times(&r).one_less());
+            r = r.plus(&between.times(&r).times(&t));
+            t = between.times(&t);
+        }
+        (r, t)
+    }
+}
+
 /// Directions inside the tissue: cosine, weight (0 for those asked for), reflectance of the surface.
 struct Nodes {
     index: f64,
@@ -149,12 +172,8 @@ impl Nodes {
             doublings += 1;
         }
         let albedo = if extinction > 0.0 { scattering / extinction } else { 0.0 };
-        let (mut r, mut t) = self.first(medium, albedo, start);
-        for _ in 0..doublings {
-            let between = t.over(&r.times(&r).one_less());
-            r = r.plus(&between.times(&r).times(&t));
-            t = between.times(&t);
-        }
+        let (r, t) = self.first(medium, albedo, start);
+        let (r, t) = Isa::best().dispatch(Doubling { r, t, doublings });
         Stack { r12: r.clone(), t12: t.clone(), r21: r, t21: t }
     }
 

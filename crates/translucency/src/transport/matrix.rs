@@ -9,6 +9,7 @@ pub struct Matrix {
 
 impl Matrix {
     /// All entries by their row and column.
+    #[inline(always)]
     pub fn from_fn(size: usize, entry: impl Fn(usize, usize) -> f64) -> Matrix {
         Matrix { size, data: (0..size * size).map(|at| entry(at / size, at % size)).collect() }
     }
@@ -19,16 +20,19 @@ impl Matrix {
     }
 
     /// Entry of a row and a column.
+    #[inline(always)]
     pub fn at(&self, row: usize, column: usize) -> f64 {
         self.data[row * self.size + column]
     }
 
     /// One row.
+    #[inline(always)]
     pub fn row(&self, row: usize) -> &[f64] {
         &self.data[row * self.size..(row + 1) * self.size]
     }
 
     /// This times `other`.
+    #[inline(always)]
     pub fn times(&self, other: &Matrix) -> Matrix {
         let n = self.size;
         let mut data = vec![0.0; n * n];
@@ -41,11 +45,13 @@ impl Matrix {
     }
 
     /// This plus `other`.
+    #[inline(always)]
     pub fn plus(&self, other: &Matrix) -> Matrix {
         Matrix { size: self.size, data: self.data.iter().zip(&other.data).map(|(a, b)| a + b).collect() }
     }
 
     /// One less this.
+    #[inline(always)]
     pub fn one_less(&self) -> Matrix {
         Matrix::from_fn(self.size, |row, column| f64::from(u8::from(row == column)) - self.at(row, column))
     }
@@ -55,16 +61,19 @@ impl Matrix {
         Matrix::from_fn(self.size, |row, column| f64::from(u8::from(row == column)) + self.at(row, column))
     }
 
+    #[inline(always)]
     fn transposed(&self) -> Matrix {
         Matrix::from_fn(self.size, |row, column| self.at(column, row))
     }
 
     /// This times the inverse of `divisor`.
+    #[inline(always)]
     pub fn over(&self, divisor: &Matrix) -> Matrix {
         divisor.transposed().under(&self.transposed()).transposed()
     }
 
     /// The inverse of this times `right`: Gauss with row exchange.
+    #[inline(always)]
     pub fn under(&self, right: &Matrix) -> Matrix {
         let n = self.size;
         let (mut left, mut right) = (self.clone(), right.clone());
@@ -89,6 +98,7 @@ impl Matrix {
         right
     }
 
+    #[inline(always)]
     fn exchange(&mut self, a: usize, b: usize) {
         if a != b {
             (0..self.size).for_each(|column| self.data.swap(a * self.size + column, b * self.size + column));
@@ -96,6 +106,7 @@ impl Matrix {
     }
 
     /// Row `to` less `factor` times row `from`, from a column on; `from` differs from `to`.
+    #[inline(always)]
     fn subtract(&mut self, to: usize, from: usize, factor: f64, first: usize) {
         let n = self.size;
         let (low, high) = self.data.split_at_mut(to.max(from) * n);

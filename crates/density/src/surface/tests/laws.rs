@@ -104,7 +104,7 @@ fn threads_instructions_and_order_do_not_change_a_byte() {
         assert!(pool.install(|| extract_fast(&balls(&generators), &cell(0.05)).unwrap()) == first, "{threads} threads");
     }
     for isa in crate::Isa::available() {
-        let made = extract_on(&balls(&generators), &cell(0.05), Splatter::new(isa)).unwrap();
+        let made = extract_on(&balls(&generators), &cell(0.05), isa).unwrap();
         assert!(made == first, "{isa:?}");
     }
     generators.reverse();
