@@ -55,6 +55,8 @@ fn severities_limits_and_baselines_decide_the_status() {
 const JUDGED: &[(&str, &str)] = &[
     ("mtree_", "IMPORT-LYING"),
     ("mtree_", "LEAF-NONE"),
+    ("ez_ash_large_12k", "UNIT-SUSPECT"),
+    ("ez_aspen_large_40k", "UNIT-SUSPECT"),
     ("proton_scatter/bush.glb", "ROLE-UNSURE"),
     ("proton_scatter/dead_branch.glb", "IMPORT-LYING"),
     ("proton_scatter/dead_branch.glb", "LEAF-NONE"),
@@ -87,6 +89,27 @@ fn real_trees_give_no_error_and_only_judged_warnings() {
         }
     }
     assert!(unjudged.is_empty() && files.len() > 30, "{unjudged:#?} in {} files", files.len());
+}
+
+/// A bush in centimeters is no taller than a tree in meters: its leaves tell.
+#[test]
+fn leaves_as_large_as_rooms_are_told() {
+    let here = folder();
+    let obj = here.path().join("bush.obj");
+    let (mut text_of, mut count) = (String::from("o trunk\n"), 0);
+    let quad = |y: f32, wide: f32| {
+        [[0.0, y], [wide, y], [wide, y + 5.0], [0.0, y + 5.0]].map(|[x, y]| format!("v {x} {y} {x}\n"))
+    };
+    for (at, wide) in [("", 1.0), ("o leaves\n", 5.0), ("", 5.0)].iter().enumerate().map(|(i, (o, w))| ((i, o), *w)) {
+        text_of += at.1;
+        text_of += &quad(20.0 * at.0 as f32, wide).concat();
+        text_of += &format!("f {} {} {} {}\n", count + 1, count + 2, count + 3, count + 4);
+        count += 4;
+    }
+    std::fs::write(&obj, text_of).unwrap();
+    let with = |unit: &str| run(CHECK, &[text(&obj), "--unit", unit, "--up", "y"]).expect(0, &[]).stdout;
+    assert!(with("m").contains("UNIT-SUSPECT") && with("m").contains("leaf triangles"), "{}", with("m"));
+    assert!(!with("cm").contains("UNIT-SUSPECT"), "{}", with("cm"));
 }
 
 /// What is held against nothing loses nothing: a master without layers would pass everything.

@@ -181,6 +181,9 @@ fn two_height_maps_become_the_maps_of_a_leaf() {
         run_in(here, LEAFSCAN, &both).expect(3, said);
     };
     wrong(&[0.1; 16], &[0.1; 8], &["b.exr", "4 x 2", "4 x 4", "one size"]);
+    let mut far = [0.1; 16];
+    far[6] = 2000.0;
+    wrong(&far, &[0.1; 16], &["a leaf within a meter", "column 2, row 1", "--unit"]);
     let mut hole = [0.1; 16];
     hole[9] = f32::NAN;
     wrong(&hole, &[0.1; 16], &["f.exr", "NaN at column 1, row 2", "write it again"]);

@@ -22,7 +22,7 @@ fn mutated_files_end_in_time_in_bounds_and_in_words() {
     let made = here.path().join("made");
     make(&programs, &input, &made).unwrap();
     let ground = Ground { programs, scratch: here.path().join("cases") };
-    let seeds = seeds(&[here.path().to_path_buf(), made.clone(), made.join("master")]).unwrap();
+    let seeds = seeds(&[here.path().to_path_buf(), made.clone(), made.join("master"), made.join("maps")]).unwrap();
     let mut wrong = Vec::new();
     for case in 0..CASES {
         let (seed, other) = (&seeds[case as usize % seeds.len()], &seeds[(7 * case as usize + 3) % seeds.len()].file);

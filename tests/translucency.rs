@@ -311,6 +311,25 @@ fn a_tree_without_maps_is_baked_without_them() {
     run(FOLIAR, &["bake", text(&source), "--only", "translucency", "-o", "never.glb"]).expect(2, &["thickness"]);
 }
 
+/// A scene keeps no texel finer than one of its pixels, and the plan says so.
+#[test]
+fn a_scene_says_how_fine_maps_are() {
+    let here = folder();
+    let source = tree(here.path(), 10);
+    let map = thickness(here.path(), "t.png", 16, 0.1);
+    let set = format!("translucency.thickness=[\"{}\"]", text(&map));
+    let (size, white) = ("translucency.leaf_width_mm=60", "translucency.thickness_scale_mm=0.4");
+    let baked = fresh("lucy-scene.glb");
+    // 60 mm over 16 texels are 3.75 mm; a pixel at 8 m is 8.55 mm: pairs of texels become one.
+    let flags = ["--set", &set, "--set", size, "--set", white, "--set", "scene.camera.nearest_m=8"];
+    let plan = run(FOLIAR, &[&["bake", text(&source), "--dry-run"], &flags[..]].concat()).expect(0, &[]);
+    assert!(plan.stdout.contains("no texel finer than a pixel at 8 m, 8.55 mm"), "{}", plan.stdout);
+    run(FOLIAR, &[&["bake", text(&source), "-o", text(&baked)], &flags[..]].concat()).expect(0, &[]);
+    verify_file(&baked).unwrap();
+    let told = run(FOLIAR, &["inspect", text(&baked)]).expect(0, &[]).stdout;
+    assert!(told.contains("map of 8 x 8 texels") && !told.contains("16 x 16"), "{told}");
+}
+
 /// A leaf texture is enough: thickness and the color of what comes through are estimated from it, and said to be that.
 #[test]
 fn thickness_and_color_are_estimated_from_the_leaf_texture() {

@@ -93,6 +93,20 @@ fn bad_maps_and_parameters_are_refused_and_nothing_is_written() {
     run_in(here.path(), TRANSLUCENCY, &sized("t.png")).expect(2, &["-o"]);
 }
 
+/// A header that claims 10^10 texels is refused with 100 MB at hand: before memory is taken.
+#[cfg(unix)]
+#[test]
+fn absurd_headers_take_no_memory() {
+    let here = folder();
+    write_maps(here.path());
+    for map in ["enormous.png", "enormous.exr", "enormous.tif", "t.png"] {
+        let limited = ["-c", "ulimit -d 100000 && exec \"$@\"", "sh", TRANSLUCENCY, "--threads", "1", "-o", "leaf.exr"];
+        let run = run_in(here.path(), "sh", &[&limited[..], &sized(map)].concat());
+        // The last shows that what is sound has room enough.
+        run.expect(if map == "t.png" { 0 } else { 3 }, &[]);
+    }
+}
+
 fn sized(map: &'static str) -> Vec<&'static str> {
     vec!["--thickness", map, "--leaf-width-mm", "60", "--thickness-scale-mm", "0.4"]
 }

@@ -27,7 +27,7 @@ fn every_flag_counts() {
     let here = here.path();
     thickness(here, "t.png", 24, 0.1);
     normals(here, "nb.png", 24);
-    let flags: [&[&str]; 17] = [
+    let flags: [&[&str]; 18] = [
         &["--preset", "dark"],
         &["--wavelength-nm", "550"],
         &["--model", "multipole"],
@@ -45,6 +45,7 @@ fn every_flag_counts() {
         &["--normal-y", "down"],
         &["--normalize", "mean"],
         &["--normalize", "diffuse"],
+        &["--coarsest-mm", "11"],
     ];
     let mut made = BTreeMap::new();
     for flags in [&[][..]].into_iter().chain(flags) {

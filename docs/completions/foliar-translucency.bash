@@ -23,7 +23,7 @@ _foliar__translucency() {
 
     case "${cmd}" in
         foliar__translucency)
-            opts="-d -q -v -o -h -V --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --thickness --alpha --normal-front --normal-back --height-front --height-back --backlit --material --for-material --leaf-width-mm --texel-mm --texel-height-mm --thickness-scale-mm --thickness-offset-mm --thickness-from --thickness-mean-mm --veins --height-scale-mm --preset --wavelength-nm --bands --absorption --reduced-scattering --anisotropy --index --fit-rt --mirror --layer --model --entry --fit --curve --spread --filters --normalize --sides --normal-frame --normal-y --exr --embed-all --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --output --help --version"
+            opts="-d -q -v -o -h -V --directory --keep-going --picture --cache --explain-roles --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --thickness --alpha --normal-front --normal-back --height-front --height-back --backlit --material --for-material --leaf-width-mm --texel-mm --texel-height-mm --thickness-scale-mm --thickness-offset-mm --thickness-from --thickness-mean-mm --veins --height-scale-mm --preset --wavelength-nm --bands --absorption --reduced-scattering --anisotropy --index --fit-rt --mirror --layer --model --entry --fit --curve --spread --filters --normalize --sides --normal-frame --normal-y --coarsest-mm --exr --embed-all --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --output --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -235,6 +235,10 @@ _foliar__translucency() {
                     ;;
                 --normal-y)
                     COMPREPLY=($(compgen -W "up down" -- "${cur}"))
+                    return 0
+                    ;;
+                --coarsest-mm)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 --exr)

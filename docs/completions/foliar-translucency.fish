@@ -45,7 +45,7 @@ complete -c foliar-translucency -l absorption -d 'Absorption, 1/mm; nothing said
 complete -c foliar-translucency -l reduced-scattering -d 'Reduced scattering, 1/mm; nothing said: that of `preset`. [at least 0]' -r
 complete -c foliar-translucency -l anisotropy -d 'Mean cosine of scattering. [at least -0.95, at most 0.999, default 0.8]' -r
 complete -c foliar-translucency -l index -d 'Index of refraction; nothing said: that of `preset`. [at least 1, at most 4]' -r
-complete -c foliar-translucency -l fit-rt -d 'Measured reflectance and transmittance, `R,T`, of a leaf as thick as the median of the map: absorption and scattering follow from them.' -r
+complete -c foliar-translucency -l fit-rt -d 'Measured reflectance and transmittance, `R,T`, of a leaf as thick as the median of the map: absorption and scattering follow from them. For `bands = "rgb"` three of them, of red, green and blue: `R,T;R,T;R,T`.' -r
 complete -c foliar-translucency -l mirror -d 'Whether the measured reflectance holds the surface\'s mirror. [default "included"]' -r -f -a "included\t'It does.'
 excluded\t'It was left out.'"
 complete -c foliar-translucency -l layer -d 'Layers of tissue from the front, `ABSORPTION,REDUCED,ANISOTROPY,SHARE` each, shares of the thickness; nothing said: one tissue.' -r
@@ -73,6 +73,7 @@ complete -c foliar-translucency -l normal-frame -d 'In which frame the back\'s n
 right-handed\t'In a right-handed frame of the back: its x points to the image\'s left.'"
 complete -c foliar-translucency -l normal-y -d 'Which way green points in normal maps. [default "up"]' -r -f -a "up\t'To the image\'s top (OpenGL, glTF).'
 down\t'To its bottom (DirectX).'"
+complete -c foliar-translucency -l coarsest-mm -d 'Edge up to which texels of the baked maps are merged, two by two, mm; nothing said: none. A scene implies the size of a pixel at its nearest distance. [millimeters, above 0]' -r
 complete -c foliar-translucency -l exr -d 'Numbers of the EXR beside the file. [default "half"]' -r -f -a "half\t'16 bits: right to .05 %.'
 float\t'32 bits.'"
 complete -c foliar-translucency -l embed-all -d 'Whether every map goes into the file, in 8 bits, and none beside it.' -r -f -a "true\t''

@@ -1,5 +1,6 @@
 //! Fixtures are functions first, files second: writes them, and says whether the files are what the functions give.
 
+mod near;
 mod plant;
 mod rules;
 

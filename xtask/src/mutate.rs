@@ -33,7 +33,7 @@ pub fn run(count: u64) -> Result<()> {
     let first = std::fs::read_dir(trees.join(MADE_OF))?.filter_map(|e| Some(e.ok()?.path()));
     let tree = first.filter(|f| f.extension().is_some_and(|e| e == "obj" || e == "glb")).min();
     make(&ground.programs, &tree.with_context(|| format!("{MADE_OF} holds no tree"))?, &home.join("made"))?;
-    folders.extend([home.join("made"), home.join("made/master")]);
+    folders.extend([home.join("made"), home.join("made/master"), home.join("made/maps")]);
     let seeds = seeds(&folders)?;
     let found = walk(&ground, &seeds, count)?;
     found.iter().for_each(|wrong| println!("{wrong}"));

@@ -238,3 +238,8 @@ pub trait Enclose {
     /// As [`Baker::bake`].
     fn enclose(&self, inputs: &Inputs, params: &Map<String, Value>) -> Result<Hull, BakeError>;
 }
+
+/// Size of a pixel at the nearest distance, meters.
+pub fn pixel_m(camera: &foliar_schema::Camera) -> f64 {
+    camera.nearest_m * 2.0 * libm::tan(camera.fov_deg.to_radians() / 2.0) / f64::from(camera.height_px)
+}

@@ -15,7 +15,7 @@ mod run;
 
 pub use array::Array;
 pub use baker::{
-    Baked, Baker, BranchFacts, Enclose, Facts, Hull, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung,
+    Baked, Baker, BranchFacts, Enclose, Facts, Hull, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung, pixel_m,
 };
 pub use error::BakeError;
 pub use hash::base_hash;

@@ -3,6 +3,8 @@
 use foliar_plant::Part;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A triangle has no area where twice its area is below this share of its longest edge squared: a sliver as thin as
 /// the rounding of its own f32 corners.
@@ -50,6 +52,45 @@ pub(crate) fn is_open(part: &Part) -> bool {
         open += usize::from(same.len() == 1);
     }
     open * 10 > all
+}
+
+/// By part, how many of its triangles stand on the points of a triangle of an earlier part, facing the same way, and which
+/// part that is for the first of them.
+pub(crate) fn twins(parts: &[&Part]) -> BTreeMap<usize, (usize, usize)> {
+    let keys = |(at, part): (usize, &&Part)| {
+        let key = |triangle: usize| Some((hash(&corners(part, triangle)?), at as u32, triangle as u32));
+        (0..part.triangles.len()).into_par_iter().filter_map(key).collect::<Vec<_>>()
+    };
+    let mut keys: Vec<(u64, u32, u32)> = parts.iter().enumerate().flat_map(keys).collect();
+    keys.par_sort_unstable();
+    let mut found = BTreeMap::new();
+    for same in keys.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+        let corners = |at: usize| corners(parts[same[at].1 as usize], same[at].2 as usize);
+        for later in 1..same.len() {
+            let earlier = (0..later).find(|at| same[*at].1 != same[later].1 && corners(*at) == corners(later));
+            if let Some(earlier) = earlier {
+                found.entry(same[later].1 as usize).or_insert((0, same[earlier].1 as usize)).0 += 1;
+            }
+        }
+    }
+    found
+}
+
+/// Where a triangle's corners stand in the rest frame, the least first and the others in their order; `None` where two are
+/// one.
+fn corners(part: &Part, triangle: usize) -> Option<[[u32; 3]; 3]> {
+    // -0 and 0 are one place.
+    let corner = |vertex: u32| part.rest_position(vertex as usize).as_vec3().to_array().map(|c| (c + 0.0).to_bits());
+    let mut own = part.triangles[triangle].map(corner);
+    let least = (0..3).min_by_key(|i| own[*i])?;
+    own.rotate_left(least);
+    (own[0] != own[1] && own[1] != own[2] && own[0] != own[2]).then_some(own)
+}
+
+fn hash(corners: &[[u32; 3]; 3]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    corners.hash(&mut hasher);
+    hasher.finish()
 }
 
 fn faces(part: &Part, points: &[u32]) -> Vec<Face> {
@@ -110,6 +151,18 @@ mod tests {
         assert_eq!(facts(&doubled).duplicates, 1);
         let apart = part(&[SQUARE, SQUARE.map(|[x, y, _]| [x, y, 1.0])].concat(), &[[0, 1, 2], [4, 5, 6]]);
         assert_eq!(facts(&apart).duplicates, 0);
+    }
+
+    #[test]
+    fn parts_that_share_triangles_are_told_wherever_their_own_frames_are() {
+        let card = part(&SQUARE, &[[0, 1, 2], [0, 2, 3]]);
+        let moved = SQUARE.map(|[x, y, z]| [x - 2.0, y, z]);
+        let mut again = part(&moved, &[[1, 2, 0], [0, 3, 2], [0, 1, 3]]);
+        again.transform = glam::DAffine3::from_translation(DVec3::new(2.0, 0.0, 0.0));
+        // One is the same, one lies back to back, one is another.
+        assert_eq!(twins(&[&card, &again]), BTreeMap::from([(1, (1, 0))]));
+        assert_eq!(twins(&[&card, &card, &again]), BTreeMap::from([(1, (2, 0)), (2, (1, 0))]));
+        assert_eq!(twins(&[&again]), BTreeMap::new());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Rules of geometry: what renderers choke on, what costs and draws nothing.
 
-use crate::faces::{Facts, facts};
+use crate::faces::{Facts, facts, twins};
 use crate::{Report, Subject};
 use foliar_carrier::SourceKind;
 use foliar_plant::Part;
@@ -28,8 +28,23 @@ pub(crate) fn check(subject: &Subject, report: &mut Report) -> Vec<Facts> {
         report.count(&code::GEOMETRY_NORMAL, &place, off, &what);
         all.push(found);
     }
+    across(subject, report);
     vertices(subject, report);
     all
+}
+
+/// Triangles that stand where another part has the same ones already: both are drawn, and flicker. Back to back is how leaves
+/// get two materials.
+fn across(subject: &Subject, report: &mut Report) {
+    let parts: Vec<&Part> = subject.parts().map(|(part, _)| part).collect();
+    for (part, (count, other)) in twins(&parts) {
+        let what = format!(
+            "of {} triangles stand on those of {}, facing the same way",
+            parts[part].triangles.len(),
+            subject.seen.place(parts[other])
+        );
+        report.count(&code::GEOMETRY_DUPLICATE, subject.seen.place(parts[part]), count, &what);
+    }
 }
 
 /// Rules over vertices, which several primitives may share.

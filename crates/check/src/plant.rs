@@ -11,6 +11,9 @@ const TALLEST_M: f64 = 150.0;
 /// Smaller than this there is moss, and no plant that anybody bakes.
 const SMALLEST_M: f64 = 0.02;
 
+/// Longer is no leaf, nor a card of a whole branch.
+const LONGEST_LEAF_EDGE_M: f64 = 4.0;
+
 /// Role of each part: what a master says, else what the evidence says, whose findings are said.
 pub(crate) fn roles(seen: &Survey, settings: &Settings, report: &mut Report) -> Result<Vec<Role>, CheckError> {
     let own: Vec<Option<Role>> = seen.base.parts.iter().map(|part| own_role(seen, part)).collect();
@@ -67,5 +70,25 @@ pub(crate) fn check(subject: &Subject, report: &mut Report) {
         let likely = if height > TALLEST_M { "centimeters or millimeters" } else { "a larger unit" };
         let message = format!("the plant is {height:.4} m high: it was probably built in {likely}");
         report.say(&code::UNIT_SUSPECT, "", message);
+        return;
     }
+    if let Some(edge) = leaf_edge(subject).filter(|edge| *edge > LONGEST_LEAF_EDGE_M) {
+        let message = format!(
+            "half of the leaf triangles have an edge of {edge:.2} m or more: the plant was probably built in a smaller unit"
+        );
+        report.say(&code::UNIT_SUSPECT, "", message);
+    }
+}
+
+/// Median of the longest edges of leaf triangles, meters.
+fn leaf_edge(subject: &Subject) -> Option<f64> {
+    let leaves = subject.parts().filter(|(_, role)| *role == Role::Leaf);
+    let longest = |(part, _): (&foliar_plant::Part, Role)| {
+        let corner = |v: u32| part.rest_position(v as usize);
+        let edge = |t: &[u32; 3]| (0..3).map(|i| corner(t[i]).distance(corner(t[(i + 1) % 3]))).fold(0.0, f64::max);
+        part.triangles.iter().map(edge).collect::<Vec<f64>>()
+    };
+    let mut edges: Vec<f64> = leaves.flat_map(longest).filter(|edge| edge.is_finite()).collect();
+    let middle = edges.len() / 2;
+    (!edges.is_empty()).then(|| *edges.select_nth_unstable_by(middle, f64::total_cmp).1)
 }

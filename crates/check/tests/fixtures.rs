@@ -101,6 +101,22 @@ fn every_rule_is_exact_on_its_two_fixtures() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// What all but breaks a rule does not.
+#[test]
+fn near_misses_are_none() {
+    let files = std::fs::read_dir(folder().join("near")).unwrap();
+    let mut names: Vec<String> = files.map(|file| file.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    let wrong = names.iter().filter_map(|name| {
+        let code = name.split('.').next()?.to_uppercase();
+        assert!(CODES.iter().any(|info| info.code == code), "{code} is no code");
+        let found = codes_of(&format!("near/{name}"), &code);
+        found.contains(&code).then(|| format!("{name}: {found:?}"))
+    });
+    let wrong: Vec<String> = wrong.collect();
+    assert!(wrong.is_empty() && names.len() > 20, "{}", wrong.join("\n"));
+}
+
 /// Found by mutation: JSON that is read, of a version that is not, leaves buffers that nobody loaded.
 #[test]
 fn a_document_that_is_given_up_early_is_a_finding() {
@@ -148,8 +164,8 @@ fn whoever_says_a_code_elsewhere_has_one() {
 
 #[test]
 fn every_fixture_belongs_to_a_rule() {
-    for entry in std::fs::read_dir(folder()).unwrap() {
-        let stem = entry.unwrap().path().file_stem().unwrap().to_string_lossy().to_uppercase();
+    for path in std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file()) {
+        let stem = path.file_stem().unwrap().to_string_lossy().to_uppercase();
         let known = ["SOUND", "MASTER"].contains(&stem.as_str()) || CODES.iter().any(|info| info.code == stem);
         assert!(known, "{stem} is no code");
     }

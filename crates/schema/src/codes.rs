@@ -114,7 +114,7 @@ codes! {
     TEXTURE_MISLABELED = "TEXTURE-MISLABELED", Error, "A picture is not what its name or type says, such as EXR named PNG: name it rightly, or convert it.";
     TEXTURE_MISSING = "TEXTURE-MISSING", Error, "A picture that a material names is not there: put it beside the asset, or name its folder with --search.";
     TEXTURE_UNMAPPED = "TEXTURE-UNMAPPED", Warning, "A part has a texture and no texture coordinates: all of it shows one texel.";
-    UNIT_SUSPECT = "UNIT-SUSPECT", Warning, "The plant is taller than any tree, or smaller than a leaf: the unit is probably wrong; say --unit for an OBJ, scale a glTF in the exporter.";
+    UNIT_SUSPECT = "UNIT-SUSPECT", Warning, "The plant is taller than any tree, or smaller than a leaf, or its leaves are as large as rooms: the unit is probably wrong; say --unit for an OBJ, scale a glTF in the exporter.";
     WOOD_NONE = "WOOD-NONE", Note, "There are leaves and no wood: they hang on nothing.";
 }
 

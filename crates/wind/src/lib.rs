@@ -25,6 +25,6 @@ pub use motion::{Gust, LeafGust};
 pub use noise::Noise;
 pub use params::Params;
 pub use player::{Player, TILES_PER_SECOND};
-pub use requirement::{amplitude, pixel_m};
+pub use requirement::amplitude;
 pub use room::Wind;
 pub use sway::{Exit, Rule, Sway, Weights, power};

@@ -2,9 +2,9 @@
 //! pixel is not baked.
 
 use crate::Params;
-use foliar_bake::{Facts, Requirement};
+use foliar_bake::{Facts, Requirement, pixel_m};
 use foliar_plant::LEVELS;
-use foliar_schema::{Camera, Scene, Strength};
+use foliar_schema::{Scene, Strength};
 use serde_json::{Map, json};
 
 /// Bytes of the weights of a vertex, of a leaf's own, of a branch's phase and frame.
@@ -64,9 +64,4 @@ pub fn amplitude(strength: Strength) -> f64 {
         Strength::Strong => 0.07,
         Strength::Storm => 0.15,
     }
-}
-
-/// Size of a pixel at the nearest distance, meters.
-pub fn pixel_m(camera: &Camera) -> f64 {
-    camera.nearest_m * 2.0 * libm::tan(camera.fov_deg.to_radians() / 2.0) / f64::from(camera.height_px)
 }

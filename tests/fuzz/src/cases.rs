@@ -8,6 +8,8 @@ use std::process::{Command, Output, Stdio};
 
 /// Seconds of the processor that a program may take.
 const MOST_SECONDS: u64 = 10;
+/// Seconds that it may last, however busy the machine is.
+const LONGEST_WAIT_S: u64 = 60;
 /// Memory that it may take: this, and so many times what it is given.
 const MOST_BYTES: u64 = 200 << 20;
 const MOST_TIMES: u64 = 10;
@@ -31,13 +33,18 @@ fn form(file: &Path) -> Option<Form> {
         "gltf" => Form::Json,
         "glb" => Form::Glb,
         "layer" => Form::Layer,
-        "png" | "jpg" | "tif" | "tga" | "bmp" | "bin" => Form::Bytes,
+        "png" | "jpg" | "tif" | "tga" | "bmp" | "exr" | "bin" => Form::Bytes,
         _ => return None,
     })
 }
 
 fn is_asset(file: &Path) -> bool {
     matches!(file.extension().and_then(|e| e.to_str()), Some("obj" | "gltf" | "glb"))
+}
+
+/// A map that is baked by itself, as [`make`] names it.
+fn is_map(file: &Path) -> bool {
+    file.file_stem().is_some_and(|stem| stem == MAP)
 }
 
 /// Files of a folder, by name.
@@ -51,7 +58,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
 
 /// What an asset reads beside itself: all of its folder but other assets; nothing where it is a GLB.
 fn beside(asset: &Path) -> Result<Vec<PathBuf>> {
-    if asset.extension().is_some_and(|ending| ending == "glb") {
+    if is_map(asset) || asset.extension().is_some_and(|ending| ending == "glb") {
         return Ok(Vec::new());
     }
     let all = files(asset.parent().unwrap_or(Path::new("")))?;
@@ -64,7 +71,7 @@ pub fn seeds(folders: &[PathBuf]) -> Result<Vec<Seed>> {
     const TIMES: usize = 4;
     let mut seeds = Vec::new();
     for folder in folders {
-        for asset in files(folder)?.into_iter().filter(|file| is_asset(file)) {
+        for asset in files(folder)?.into_iter().filter(|file| is_asset(file) || is_map(file)) {
             let own = std::iter::repeat_n(asset.clone(), TIMES);
             for file in own.chain(beside(&asset)?) {
                 seeds.extend(form(&file).map(|form| Seed { asset: asset.clone(), file, form }));
@@ -124,8 +131,10 @@ impl Ground {
         }
         let kilobytes = (MOST_BYTES + MOST_TIMES * size) >> 10;
         let mut command = Command::new("sh");
-        command.args(["-c", "ulimit -d \"$1\" && ulimit -t \"$2\" && shift 2 && exec \"$@\"", "sh"]);
-        command.args([kilobytes.to_string(), MOST_SECONDS.to_string()]);
+        // What waits takes no time of the processor.
+        let limits = "ulimit -d \"$1\" && ulimit -t \"$2\" && shift 2 && exec timeout -s KILL \"$@\"";
+        command.args(["-c", limits, "sh"]);
+        command.args([kilobytes.to_string(), MOST_SECONDS.to_string(), LONGEST_WAIT_S.to_string()]);
         command.arg(self.programs.join(&words[0])).args(&words[1..]).args(["--threads", "1"]);
         for (variable, _) in std::env::vars_os().filter(|(name, _)| name.to_string_lossy().starts_with("FOLIAR_")) {
             command.env_remove(variable);
@@ -143,7 +152,9 @@ fn name(file: &Path) -> String {
 }
 
 /// Other commands that read assets.
-const MORE: [&str; 6] = [
+const MORE: [&str; 8] = [
+    "foliar-translucency FILE --thickness-from photo --leaf-width-mm 400 -o lit.glb",
+    "foliar-leafscan FILE --resolution 32 -o scan.exr",
     "foliar inspect FILE",
     "foliar diff FILE FILE",
     "foliar-check --after FILE --master FILE --format json",
@@ -156,12 +167,20 @@ const MORE: [&str; 6] = [
 fn tries(asset: &str, file: &str, case: u64) -> Vec<Vec<String>> {
     let line = match Path::new(file).extension().and_then(|ending| ending.to_str()) {
         Some("layer") => format!("foliar assemble {asset} {file} -o {OUTPUT}"),
+        Some("png" | "exr") if is_map(Path::new(file)) => {
+            let own = "--thickness FILE --texel-mm 0.5 --thickness-scale-mm 0.4 -o lit.exr";
+            let heights = "--height-front FILE --height-back FILE --texel-mm 1 --height-scale-mm 0.4 -o scan.exr";
+            return words(&format!("foliar-translucency {own}|foliar-leafscan {heights}").replace("FILE", file));
+        }
         Some("toml") => format!("foliar config {asset}|foliar bake {asset} -o {OUTPUT}"),
         _ => format!("foliar-check {asset} --format json|foliar bake {asset} -o {OUTPUT}"),
     };
     // Of what else reads assets one each time.
     let more = MORE[case as usize % MORE.len()].replace("FILE", asset);
-    let lines = format!("{line}|foliar-check {OUTPUT} --format json|{more}");
+    words(&format!("{line}|foliar-check {OUTPUT} --format json|{more}"))
+}
+
+fn words(lines: &str) -> Vec<Vec<String>> {
     lines.split('|').map(|line| line.split(' ').map(Into::into).collect()).collect()
 }
 
@@ -215,8 +234,26 @@ pub fn make(programs: &Path, tree: &Path, folder: &Path) -> Result<()> {
             return Err(Error::other(format!("{program} {input}: {}", String::from_utf8_lossy(&run.stderr))));
         }
     }
+    let maps = folder.join("maps");
+    std::fs::create_dir_all(&maps)?;
+    std::fs::write(maps.join("slab.obj"), SLAB)?;
+    for ending in ["png", "exr"] {
+        let mut command = Command::new(programs.join("foliar-leafscan"));
+        command.args(["slab.obj", "--unit", "mm", "--resolution", "24", "-o"]).arg(format!("{MAP}.{ending}"));
+        let run = command.current_dir(&maps).output()?;
+        if !run.status.success() {
+            return Err(Error::other(format!("foliar-leafscan: {}", String::from_utf8_lossy(&run.stderr))));
+        }
+    }
     std::fs::write(folder.join("foliar.toml"), CONFIGURATION)
 }
+
+/// Name of a map that is baked by itself.
+const MAP: &str = "thickness";
+
+/// A leaf of 40 x 30 x .3 mm.
+const SLAB: &str = "v 0 0 0\nv 40 0 0\nv 40 30 0\nv 0 30 0\nv 0 0 .3\nv 40 0 .3\nv 40 30 .3\nv 0 30 .3\nf 4 3 2 1\nf 5 6 7 8\n\
+    f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
 /// A bit of every kind of value.
 const CONFIGURATION: &str = "[import]\nsearch = ['maps', 'more']\n[roles]\nleaf = ['*leaf*']\n[scene.camera]\nnearest_m = 2.5\n\

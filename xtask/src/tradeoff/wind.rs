@@ -161,7 +161,7 @@ fn dropped(plant: &Plant) -> Result<String> {
     for nearest in [1.0, 3.0, 10.0, 30.0, 100.0, 300.0] {
         let cell = |strength| {
             let camera = foliar_schema::Camera { nearest_m: nearest, ..Default::default() };
-            let half = 0.5 * foliar_wind::pixel_m(&camera);
+            let half = 0.5 * foliar_bake::pixel_m(&camera);
             (0..LEVELS).rfind(|l| amplitude(strength) * longest[*l] > half).map_or(0, |l| l + 1)
         };
         let [a, b, c] = [Strength::Breeze, Strength::Strong, Strength::Storm].map(cell);

@@ -287,10 +287,11 @@ impl Sheet {
     }
 
     /// What a record says of the whole leaf.
-    pub fn facts(&self, params: &Params, maps: Map<String, Value>) -> Map<String, Value> {
+    /// `merged` texels an edge are one of the maps that are stored.
+    pub fn facts(&self, params: &Params, merged: usize, maps: Map<String, Value>) -> Map<String, Value> {
         let facts = json!({
-            "texelMm": self.texel_mm[0],
-            "texelHeightMm": self.texel_mm[1],
+            "texelMm": self.texel_mm[0] * merged as f64,
+            "texelHeightMm": self.texel_mm[1] * merged as f64,
             "thicknessMm": { "least": self.range_mm.0, "median": self.median_mm, "greatest": self.range_mm.1 },
             "thicknessFrom": params.thickness_from,
             "normalize": params.normalize,

@@ -4,13 +4,14 @@ mod input;
 mod normalize;
 mod params;
 mod sheet;
+mod texels;
 
 pub use params::{
     AngularCurve, Bands, Exr, LeafKind, Mirror, NormalFrame, NormalY, Normalize, Params, Side, Sides, ThicknessFrom,
 };
 
 use crate::map::{LeafMap, Tables, coefficient_map, reference};
-use foliar_bake::{BakeError, Baked, Baker, Facts, FloatRaster, Inputs, Needs, Progress, Requirement, Rung};
+use foliar_bake::{BakeError, Baked, Baker, Facts, Inputs, Needs, Progress, Requirement, Rung, pixel_m};
 use foliar_schema::{Finding, Scene, names};
 use input::Sheet;
 use serde_json::{Map, Value, json};
@@ -48,8 +49,13 @@ impl Baker for Translucency {
 
     fn require(&self, scene: &Scene, _: &Facts) -> Requirement {
         if scene.light.backlit {
-            let because = "backlit = true: leaves are seen against the sun".to_owned();
-            Requirement::Required { params: Map::new(), because, bytes: 0 }
+            let pixel_mm = 1000.0 * pixel_m(&scene.camera);
+            let because = format!(
+                "backlit = true: leaves are seen against the sun; no texel finer than a pixel at {} m, {pixel_mm:.2} mm",
+                scene.camera.nearest_m
+            );
+            let implied = json!({ "coarsest_mm": pixel_mm }).as_object().cloned();
+            Requirement::Required { params: implied.unwrap_or_default(), because, bytes: 0 }
         } else {
             Requirement::NotRequired { because: "backlit = false: no leaf is seen against the sun".into() }
         }
@@ -108,15 +114,17 @@ fn walk(
             let name = format!("{raster}{}", band.suffix);
             maps.insert(name.clone(), band.facts(&tables, &recipe, facts.mean));
             let texels = normalize::with_mean(&map, &coefficients, &tables);
-            let (width, height) = (map.width as u32, map.height as u32);
-            baked.rasters.insert(name, FloatRaster { width, height, channels: 4, data: texels });
+            let size = [map.width, map.height];
+            let by = texels::merged(sheet.texel_mm, size, params.coarsest_mm);
+            baked.rasters.insert(name, texels::coarser(texels, size, by));
             done += 1;
         }
     }
     baked.findings.extend(sheet.warning_of_steps(cost));
     let resolved = serde_json::to_value(&params).unwrap_or_default();
     baked.resolved = resolved.as_object().cloned().unwrap_or_default();
-    baked.facts = sheet.facts(&params, maps);
+    let by = texels::merged(sheet.texel_mm, [sheet.width, sheet.height], params.coarsest_mm);
+    baked.facts = sheet.facts(&params, by, maps);
     Ok(baked)
 }
 

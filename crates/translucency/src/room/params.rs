@@ -237,7 +237,7 @@ pub struct Params {
     #[schemars(range(min = 1.0, max = 4.0))]
     pub index: Option<f64>,
     /// Measured reflectance and transmittance, `R,T`, of a leaf as thick as the median of the map: absorption and scattering
-    /// follow from them.
+    /// follow from them. For `bands = "rgb"` three of them, of red, green and blue: `R,T;R,T;R,T`.
     pub fit_rt: Option<String>,
     /// Whether the measured reflectance holds the surface's mirror.
     pub mirror: Mirror,
@@ -266,6 +266,10 @@ pub struct Params {
     pub normal_frame: NormalFrame,
     /// Which way green points in normal maps.
     pub normal_y: NormalY,
+    /// Edge up to which texels of the baked maps are merged, two by two, mm; nothing said: none. A scene implies the size of a
+    /// pixel at its nearest distance.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub coarsest_mm: Option<f64>,
     /// Numbers of the EXR beside the file.
     pub exr: Exr,
     /// Whether every map goes into the file, in 8 bits, and none beside it.
@@ -313,6 +317,7 @@ impl Default for Params {
             sides: Sides::default(),
             normal_frame: NormalFrame::default(),
             normal_y: NormalY::default(),
+            coarsest_mm: None,
             exr: Exr::default(),
             embed_all: false,
         }

@@ -32,14 +32,15 @@ pub struct Band {
 pub fn recipes(params: &Params, sheet: &Sheet) -> Result<Vec<Band>, BakeError> {
     let one = [(params.wavelength_nm, "")];
     let bands: &[(f64, &str)] = if params.bands == Bands::Rgb { &RGB } else { &one };
-    if bands.len() > 1 && (params.absorption.is_some() || params.fit_rt.is_some() || !params.layer.is_empty()) {
+    if bands.len() > 1 && (params.absorption.is_some() || !params.layer.is_empty()) {
         return Err(refuse(
             "bands",
-            "rgb takes its tissue from `preset`: absorption, fit_rt and layer say one wavelength",
+            "rgb takes its tissue from `preset` or from three pairs of fit_rt: absorption and layer say one wavelength",
         ));
     }
-    let band = |&(wavelength_nm, suffix): &(f64, &'static str)| {
-        let tissues = tissues(params, sheet, wavelength_nm)?;
+    let measured = measured(params, bands.len())?;
+    let band = |(at, &(wavelength_nm, suffix)): (usize, &(f64, &'static str))| {
+        let tissues = tissues(params, sheet, wavelength_nm, measured.get(at))?;
         let recipe = Recipe {
             tissues,
             model: params.model,
@@ -52,10 +53,27 @@ pub fn recipes(params: &Params, sheet: &Sheet) -> Result<Vec<Band>, BakeError> {
         };
         Ok(Band { suffix, wavelength_nm, recipe })
     };
-    bands.iter().map(band).collect()
+    bands.iter().enumerate().map(band).collect()
 }
 
-fn tissues(params: &Params, sheet: &Sheet, wavelength_nm: f64) -> Result<Vec<Tissue>, BakeError> {
+/// What was measured of each band; nothing where tissue is said otherwise.
+fn measured(params: &Params, bands: usize) -> Result<Vec<Measured>, BakeError> {
+    let Some(text) = &params.fit_rt else { return Ok(Vec::new()) };
+    let form = if bands > 1 { "R,T;R,T;R,T, of red, green and blue" } else { "R,T" };
+    let pair = |text: &str| {
+        let [reflectance, transmittance] = numbers(text, "fit_rt", form)?;
+        Ok(Measured { reflectance, transmittance, with_mirror: params.mirror == Mirror::Included })
+    };
+    let pairs = text.split(';').map(pair).collect::<Result<Vec<_>, BakeError>>()?;
+    if pairs.len() == bands { Ok(pairs) } else { Err(refuse("fit_rt", format!("{text:?}: must be {form}"))) }
+}
+
+fn tissues(
+    params: &Params,
+    sheet: &Sheet,
+    wavelength_nm: f64,
+    measured: Option<&Measured>,
+) -> Result<Vec<Tissue>, BakeError> {
     let preset = Preset::named(params.preset.name()).and_then(|preset| preset.medium(wavelength_nm));
     let preset =
         preset.ok_or_else(|| refuse("wavelength_nm", format!("is {wavelength_nm}: must be from 450 to 680")))?;
@@ -63,9 +81,9 @@ fn tissues(params: &Params, sheet: &Sheet, wavelength_nm: f64) -> Result<Vec<Tis
     if !params.layer.is_empty() {
         return layers(params, index);
     }
-    if let Some(text) = &params.fit_rt {
-        let medium = fitted(text, params, sheet.median_mm, index)?;
-        return Ok(vec![Tissue { medium, share: 1.0 }]);
+    if let Some(measured) = measured {
+        let medium = fit_rt(*measured, sheet.median_mm, params.anisotropy, index);
+        return Ok(vec![Tissue { medium: medium.map_err(|e| refuse("fit_rt", e.to_string()))?, share: 1.0 }]);
     }
     let medium = Medium::reduced(
         params.absorption.unwrap_or(preset.absorption),
@@ -74,12 +92,6 @@ fn tissues(params: &Params, sheet: &Sheet, wavelength_nm: f64) -> Result<Vec<Tis
         index,
     );
     Ok(vec![Tissue { medium: medium.map_err(|e| refuse(e.name, e.to_string()))?, share: 1.0 }])
-}
-
-fn fitted(text: &str, params: &Params, thickness_mm: f64, index: f64) -> Result<Medium, BakeError> {
-    let [reflectance, transmittance] = numbers(text, "fit_rt", "R,T")?;
-    let measured = Measured { reflectance, transmittance, with_mirror: params.mirror == Mirror::Included };
-    fit_rt(measured, thickness_mm, params.anisotropy, index).map_err(|error| refuse("fit_rt", error.to_string()))
 }
 
 fn layers(params: &Params, index: f64) -> Result<Vec<Tissue>, BakeError> {
@@ -103,14 +115,20 @@ fn numbers<const N: usize>(text: &str, place: &str, form: &str) -> Result<[f64; 
     parts.ok_or_else(|| refuse(place, format!("{text:?}: must be {form}")))
 }
 
-/// What was found from a measured reflectance and transmittance.
+/// What was found from measured reflectances and transmittances.
 pub fn fitted_tissue(params: &Params, bands: &[Band]) -> Option<Finding> {
-    let (text, medium) = (params.fit_rt.as_ref()?, bands.first()?.recipe.tissues.first()?.medium);
-    let message = format!(
-        "R,T = {text} are those of absorption {:.4} and reduced scattering {:.4} per mm",
-        medium.absorption,
-        medium.reduced_scattering()
-    );
+    let text = params.fit_rt.as_ref()?;
+    let found = |band: &Band| {
+        let medium = band.recipe.tissues.first()?.medium;
+        let of = if bands.len() > 1 { format!(" at {} nm", band.wavelength_nm) } else { String::new() };
+        Some(format!(
+            "absorption {:.4} and reduced scattering {:.4} per mm{of}",
+            medium.absorption,
+            medium.reduced_scattering()
+        ))
+    };
+    let found: Vec<String> = bands.iter().filter_map(found).collect();
+    let message = format!("R,T = {text} are those of {}", found.join("; "));
     Some(finding(&code::MAP_FITTED, names::MAP_THICKNESS, message))
 }
 

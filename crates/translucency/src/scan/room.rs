@@ -3,6 +3,7 @@
 use super::{Frame, Scan, Solid, between_heights, in_texture, project};
 use crate::map::LeafMap;
 use foliar_bake::{BakeError, Baked, Baker, Facts, FloatRaster, Inputs, Maps, Needs, Progress, Requirement, Rung};
+use foliar_numerics::find_first;
 use foliar_plant::Plant;
 use foliar_schema::{CodeInfo, Finding, Scene, code, names};
 use glam::{DVec2, DVec3};
@@ -157,9 +158,25 @@ fn walk(inputs: &Inputs, params: &Map<String, Value>, direct: bool) -> Result<Ba
             "look at the findings about holes, and at the unit",
         ));
     }
+    if let Some(what) = too_large(&scan) {
+        return Err(needs_text("a leaf within a meter", format!("{what}: say --unit, or the scale of the heights")));
+    }
     let resolved = serde_json::to_value(&params).unwrap_or_default();
     let findings = findings.into_iter().chain(about(&scan)).collect();
     Ok(Baked { resolved: resolved.as_object().cloned().unwrap_or_default(), findings, ..baked(scan) })
+}
+
+/// What is no leaf: a texel thicker, or farther from the middle, than a map of a leaf may say.
+fn too_large(scan: &Scan) -> Option<String> {
+    let [front, back] = &scan.heights_mm;
+    let maps =
+        [(names::MAP_THICKNESS, &scan.thickness_mm), (names::MAP_HEIGHT_FRONT, front), (names::MAP_HEIGHT_BACK, back)];
+    maps.into_iter().find_map(|(name, values)| {
+        let info = foliar_schema::raster(name)?;
+        let at = find_first(values, |value| !(info.min..=info.max).contains(value))?;
+        let (column, row) = (at % scan.width, at / scan.width);
+        Some(format!("its {name} is {} mm at column {column}, row {row}", values[at]))
+    })
 }
 
 fn of_mesh(plant: &Plant, params: &ScanParams, direct: bool) -> Result<(Scan, Vec<Finding>), BakeError> {

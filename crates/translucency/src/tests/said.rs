@@ -1,7 +1,7 @@
 //! What the room says of maps that cost something, and that it says the truth.
 
 use super::room::{bake, maps, raster};
-use foliar_bake::{MapRaster, Maps};
+use foliar_bake::{Baker, MapRaster, Maps};
 use foliar_schema::{Finding, names};
 use serde_json::{Value, json};
 
@@ -99,6 +99,56 @@ fn a_fitted_tissue_is_told() {
     let tissue = &layer.record.facts["maps"][names::RASTER_TRANSLUCENCY_FRONT]["tissues"][0];
     let absorption = format!("absorption {:.4}", tissue["absorption"].as_f64().unwrap());
     assert!(found[0].code == "MAP-FITTED" && found[0].message.contains(&absorption), "{found:?}");
+}
+
+/// Three bands as measured: each has its own tissue, that of its band alone.
+#[test]
+fn three_bands_are_fitted_each_by_its_own_measurement() {
+    let pairs = ["0.08,0.03", "0.12,0.08", "0.05,0.01"];
+    let with = |bands: &str, pairs: &str, nm: f64| json!({"texel_mm": 0.5, "sides": "front", "bands": bands, "fit_rt": pairs, "wavelength_nm": nm});
+    let (layer, found) = bake(&maps(8), with("rgb", &pairs.join(";"), 510.0)).unwrap();
+    assert!(found[0].code == "MAP-FITTED" && found[0].message.matches(" nm").count() == 3, "{found:?}");
+    let front = names::RASTER_TRANSLUCENCY_FRONT;
+    let bands = [names::BAND_RED, "", names::BAND_BLUE].map(|band| format!("{front}{band}"));
+    for ((name, pair), nm) in bands.iter().zip(pairs).zip([610.0, 550.0, 450.0]) {
+        let alone = bake(&maps(8), with("one", pair, nm)).unwrap().0;
+        let tissues = |layer: &foliar_bake::Layer, name: &str| layer.record.facts["maps"][name]["tissues"].clone();
+        assert_eq!(tissues(&layer, name), tissues(&alone, front), "{name}");
+    }
+    for (bands, pairs) in [("rgb", "0.1,0.06"), ("rgb", "0.1,0.06;0.1,0.06"), ("one", "0.1,0.06;0.1,0.06")] {
+        let error = bake(&maps(8), with(bands, pairs, 510.0)).unwrap_err().to_string();
+        assert!(error.contains("fit_rt") && error.contains("must be R,T"), "{error}");
+    }
+}
+
+/// A scene's pixel is the finest texel that is kept: each is the mean of what was baked there.
+#[test]
+fn no_texel_is_finer_than_a_pixel_of_the_scene() {
+    let near = foliar_schema::Scene::default();
+    let foliar_bake::Requirement::Required { params, because, .. } =
+        crate::Translucency.require(&near, &foliar_bake::Facts::default())
+    else {
+        panic!("the default scene is backlit");
+    };
+    // 3 m, 60 degrees, 1080 rows.
+    let pixel = params["coarsest_mm"].as_f64().unwrap();
+    assert!((pixel - 2000.0 * 3.0 * 0.577_350_27 / 1080.0).abs() < 1e-6 && because.contains("3.21 mm"), "{because}");
+    let name = names::RASTER_TRANSLUCENCY_FRONT;
+    let with = |more: Value| bake(&maps(32), more).unwrap().0;
+    let fine = with(json!({"texel_mm": 0.5, "sides": "front"}));
+    let coarse = with(json!({"texel_mm": 0.5, "sides": "front", "coarsest_mm": pixel}));
+    let (fine_map, coarse_map) = (&fine.rasters[name], &coarse.rasters[name]);
+    assert_eq!((fine_map.width, coarse_map.width, coarse_map.height), (32, 8, 8));
+    assert_eq!((&fine.record.facts["texelMm"], &coarse.record.facts["texelMm"]), (&json!(0.5), &json!(2.0)));
+    let texel = |x: usize, y: usize| &fine_map.data[4 * (32 * y + x)..][..4];
+    for (at, found) in coarse_map.data.chunks(4).enumerate() {
+        let own = (0..16).map(|i| texel(at % 8 * 4 + i % 4, at / 8 * 4 + i / 4)).filter(|texel| texel[3] > 0.0);
+        let own: Vec<&[f32]> = own.collect();
+        for (c, found) in found.iter().enumerate() {
+            let mean = own.iter().map(|texel| texel[c]).sum::<f32>() / own.len().max(1) as f32;
+            assert!((mean - found).abs() < 1e-6, "texel {at}: {mean} {found}");
+        }
+    }
 }
 
 /// Normals in floats are taken for what they are, whichever way they are written.
