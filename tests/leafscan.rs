@@ -131,7 +131,7 @@ fn what_is_no_leaf_is_refused_with_a_remedy() {
     std::fs::write(here.join("leaf.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let flat = [&SCAN[..], &["-o", "maps.exr"]].concat();
     run_in(here, LEAFSCAN, &flat)
-        .expect(3, &["leaf.obj", "no texel of the maps holds any", "look at the findings about holes"]);
+        .expect(3, &["leaf.obj", "no texel of the maps holds any", "edge", "look at the unit"]);
     leaf(here, &[]);
     run_in(here, LEAFSCAN, &[&SCAN[..], &["-o", "maps.jpg"]].concat()).expect(2, &[".exr, .png or .layer"]);
     run_in(here, LEAFSCAN, &[&flat[..], &["--unwrap", "uv"]].concat()).expect(3, &["no texture coordinates"]);

@@ -63,7 +63,7 @@ fn maps_alone_become_exr_png_and_a_json_that_explains_them() {
     normals(here.path(), "nb.png", 48);
     let arguments = ["--thickness", "t.png", "--normal-back", "nb.png", "-o", "leaf.exr"];
     let said = run_in(here.path(), TRANSLUCENCY, &with_flags(&arguments))
-        .expect(0, &["MAP-ROUNDED", "% of the brightest", "the EXR beside it has every bit"]);
+        .expect(0, &["MAP-ROUNDED", "% of the brightest", "the EXR beside it loses nothing that shows"]);
     assert!(said.stdout.contains("leaf.exr"), "{said:?}");
     let names = ["leaf.exr", "leaf-back.exr", "leaf.png", "leaf.json"];
     assert!(names.iter().all(|name| here.path().join(name).is_file()));
@@ -277,7 +277,7 @@ fn three_bands_go_onto_a_tree() {
     let photo = here.path().join("photo.jpg");
     ImageBuffer::from_pixel(8, 8, Rgb([90u8, 160, 40])).save(&photo).unwrap();
     let all = [&flags[..], &["--embed-all", "--backlit", text(&photo)]].concat();
-    run(TRANSLUCENCY, &with_flags(&all)).expect(0, &["write an EXR to keep every bit"]);
+    run(TRANSLUCENCY, &with_flags(&all)).expect(0, &["write an EXR to lose nothing"]);
     verify_file(&baked).unwrap();
     assert!(sides(&baked).is_empty(), "{:?}", sides(&baked));
     let (json, binary) = open_glb(&baked);

@@ -93,6 +93,26 @@ fn bad_maps_and_parameters_are_refused_and_nothing_is_written() {
     run_in(here.path(), TRANSLUCENCY, &sized("t.png")).expect(2, &["-o"]);
 }
 
+/// Names beside `-o` may be those of maps: nothing that was read is written over, nor taken away.
+#[test]
+fn maps_that_were_read_are_left_alone() {
+    let here = folder();
+    thickness(here.path(), "leaf.png", 16, 0.1);
+    let own = std::fs::read(here.path().join("leaf.png")).unwrap();
+    let exr = [sized("leaf.png"), vec!["-o", "leaf.exr"]].concat();
+    run_in(here.path(), TRANSLUCENCY, &exr).expect(2, &["leaf.png", "written over", "another output"]);
+    assert!(std::fs::read(here.path().join("leaf.png")).unwrap() == own && !here.path().join("leaf.exr").exists());
+    // A plan looks for its files, too.
+    let planned = [sized("none.png"), vec!["-o", "x.exr", "--dry-run"]].concat();
+    run_in(here.path(), TRANSLUCENCY, &planned).expect(3, &["none.png"]);
+    // What an earlier bake left and nothing names any more goes.
+    let with = |more: &[&'static str]| [sized("leaf.png"), vec!["-o", "x.exr"], more.to_vec()].concat();
+    run_in(here.path(), TRANSLUCENCY, &with(&["--bands", "rgb"])).expect(0, &[]);
+    assert!(here.path().join("x-back-red.exr").exists());
+    run_in(here.path(), TRANSLUCENCY, &with(&["--sides", "front"])).expect(0, &[]);
+    assert_eq!(names(here.path()), ["leaf.png", "x.exr", "x.json", "x.png"]);
+}
+
 /// A header that claims 10^10 texels is refused with 100 MB at hand: before memory is taken.
 #[cfg(unix)]
 #[test]
@@ -158,6 +178,19 @@ fn refused() -> Vec<Row<'static>> {
         ("too bright", with(&["--fit-rt", "0.8,0.4"]), 2, vec!["fit_rt", "R + T", "below 1"]),
         ("no pair", with(&["--fit-rt", "0.8"]), 2, vec!["R,T"]),
         ("curve without transport", with(&["--curve", "fitted", "--entry", "lambert"]), 2, vec!["transport"]),
+        (
+            "two tissues",
+            with(&["--fit-rt", "0.1,0.06", "--absorption", "1"]),
+            2,
+            vec!["absorption", "fit_rt", "one of them"],
+        ),
+        (
+            "layers and a measurement",
+            with(&["--layer", "1,8,0.8,1", "--fit-rt", "0.1,0.06"]),
+            2,
+            vec!["fit_rt", "layer"],
+        ),
+        ("a mirror of nothing", with(&["--mirror", "excluded"]), 2, vec!["mirror", "fit_rt"]),
         ("infrared", with(&["--wavelength-nm", "900"]), 2, vec!["wavelength_nm", "680"]),
         ("twice", with(&["--thickness", "small.png"]), 2, vec!["twice", "small.png"]),
         ("photograph alone", with(&["--backlit", "t.png"]), 2, vec!["name the tree"]),

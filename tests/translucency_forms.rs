@@ -130,3 +130,35 @@ fn a_scan_goes_all_the_way() {
         assert!(own.iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-3 * b.abs()), "{ending}: {own:?} {exact:?}");
     }
 }
+
+/// Whatever a map is divided by, a stock viewer sees the same light: factor times A.
+#[test]
+fn a_stock_viewer_sees_as_much_light_whatever_a_map_was_divided_by() {
+    let here = folder();
+    let source = crate::common::tree(here.path(), 10);
+    thickness(here.path(), "t.png", 24, 0.1);
+    let map = here.path().join("t.png");
+    let baked = here.path().join("x.glb");
+    let light = |normalize: &str| {
+        let (source, map, baked) = (source.to_str().unwrap(), map.to_str().unwrap(), baked.to_str().unwrap());
+        let flags = [source, "--thickness", map, "--sides", "front", "--normalize", normalize, "-o", baked];
+        crate::common::run(TRANSLUCENCY, &with_flags(&flags)).expect(0, &[]);
+        let (json, binary) = crate::common::open_glb(Path::new(baked));
+        let shown = json["materials"].as_array().unwrap().iter();
+        let mut shown = shown.map(|material| &material["extensions"]["KHR_materials_diffuse_transmission"]);
+        let factor = shown.find_map(|value| value["diffuseTransmissionFactor"].as_f64()).unwrap();
+        let view = json["images"].as_array().unwrap().iter().find_map(|image| image["bufferView"].as_u64()).unwrap();
+        let view = &json["bufferViews"][view as usize];
+        let number = |key: &str| view[key].as_u64().unwrap_or(0) as usize;
+        let png = &binary[number("byteOffset")..number("byteOffset") + number("byteLength")];
+        let picture = image::load_from_memory(png).unwrap().to_rgba8();
+        let alphas: Vec<f64> = picture.pixels().map(|p| f64::from(p.0[3]) / 255.0).collect();
+        factor * alphas.iter().sum::<f64>() / alphas.len() as f64
+    };
+    let physical = light("none");
+    for normalize in ["mean", "diffuse"] {
+        let found = light(normalize);
+        // Texels beyond the leaf are filled, and count here too.
+        assert!((found / physical - 1.0).abs() < 0.1, "{normalize}: {found}, not {physical}");
+    }
+}

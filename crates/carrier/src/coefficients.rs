@@ -28,19 +28,32 @@ pub(crate) struct Stored {
     pub link: MapLink,
 }
 
-/// The numbers as an EXR of these bits gives them back: what follows from them follows from the file as well.
-pub(crate) fn rounded(raster: &FloatRaster, half: bool) -> FloatRaster {
+/// How far half floats may be from a map, rms over rms: beyond, where a map is so dark that they run out of digits, it is
+/// stored in 32 bits.
+const HALF_COSTS: f64 = 1e-3;
+
+/// The numbers as an EXR of these bits gives them back: what follows from them follows from the file as well; and whether
+/// they are halves.
+pub(crate) fn rounded(raster: &FloatRaster, half: bool) -> (FloatRaster, bool) {
     let mut data = raster.data.clone();
-    if half {
-        const CHUNK: usize = 4096;
-        data.par_chunks_mut(CHUNK).for_each(|values| {
-            let mut halves = [f16::ZERO; CHUNK];
-            let halves = &mut halves[..values.len()];
-            halves.convert_from_f32_slice(values);
-            halves.convert_to_f32_slice(values);
-        });
+    if !half {
+        return (FloatRaster { data, ..*raster }, false);
     }
-    FloatRaster { data, ..*raster }
+    let sums = data.par_chunks_mut(CHUNK).zip(raster.data.par_chunks(CHUNK)).map(|(values, own)| {
+        let mut halves = vec![f16::ZERO; values.len()];
+        halves.convert_from_f32_slice(values);
+        halves.convert_to_f32_slice(values);
+        values.iter().zip(own).fold([0.0f64; 2], |sums, (back, own)| {
+            let (back, own) = (f64::from(*back), f64::from(*own));
+            [sums[0] + (own - back) * (own - back), sums[1] + own * own]
+        })
+    });
+    let sums: Vec<[f64; 2]> = sums.collect();
+    let [misses, squares] = sums.into_iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    if misses > HALF_COSTS * HALF_COSTS * squares {
+        return (FloatRaster { data: raster.data.clone(), ..*raster }, false);
+    }
+    (FloatRaster { data, ..*raster }, true)
 }
 
 /// One EXR: coefficients filled beyond the leaf, and the mean transmission, which says where the leaf is.
@@ -356,5 +369,21 @@ mod tests {
         assert!(map.link.max_error < 1e-9 && map.rgba[3] == 255);
         let none = FloatRaster { width: 2, height: 3, channels: 4, data: vec![0.0; 24] };
         assert!(stored(&none, &filled(&none)).rgba.chunks(4).all(|t| t[3] > 0));
+    }
+
+    /// Halves hold a map to .05 % until it is darker than their digits reach; then floats do.
+    #[test]
+    fn maps_too_dark_for_halves_are_floats() {
+        for (scale, is_half) in [(1.0, true), (1e-3, true), (1e-6, false)] {
+            let bright = disk(32);
+            let raster = FloatRaster { data: bright.data.iter().map(|v| v * scale).collect(), ..bright };
+            let (stored, half) = rounded(&raster, true);
+            let off = |f: fn(f32, f32) -> f32| {
+                let squares = stored.data.iter().zip(&raster.data).map(|(a, b)| f64::from(f(*a, *b)).powi(2));
+                squares.sum::<f64>().sqrt()
+            };
+            assert_eq!(half, is_half, "{scale}");
+            assert!(off(|a, b| a - b) <= 5e-4 * off(|_, b| b), "{scale}");
+        }
     }
 }

@@ -60,6 +60,9 @@ fn links(json: &mut Value) -> Vec<&mut Value> {
 
 /// Side files that a file on disk names, of its own folder only.
 pub(crate) fn named_by(path: &Path) -> Vec<PathBuf> {
+    if path.extension().is_some_and(|ending| ending == "json") {
+        return loose_named_by(path);
+    }
     let folder = folder(path);
     if !folder.is_dir() {
         return Vec::new();
@@ -68,6 +71,18 @@ pub(crate) fn named_by(path: &Path) -> Vec<PathBuf> {
     let name = |uri: &str| percent_decode_str(last_name(uri)).decode_utf8_lossy().into_owned();
     let names: BTreeSet<String> = links(&mut json).into_iter().filter_map(|link| link.as_str().map(name)).collect();
     names.into_iter().map(|name| folder.join(name)).collect()
+}
+
+/// The same of the JSON beside maps without a tree.
+fn loose_named_by(path: &Path) -> Vec<PathBuf> {
+    let text = std::fs::read(path).ok();
+    let json: Option<Value> = text.and_then(|text| serde_json::from_slice(&text).ok());
+    let is_ours = |json: &Value| json["record"]["room"] == names::ROOM_TRANSLUCENCY && !json["contract"].is_null();
+    let Some(json) = json.filter(is_ours) else { return Vec::new() };
+    let maps = json[names::ROOM_TRANSLUCENCY]["maps"].as_object().into_iter().flat_map(|maps| maps.values());
+    let named = maps.flat_map(|map| [&map["exr"], &map["texture"]]).filter_map(Value::as_str);
+    // Only names: nothing elsewhere is ours.
+    named.filter(|name| last_name(name) == *name).map(|name| path.with_file_name(name)).collect()
 }
 
 /// The JSON of a .glb or .gltf.
@@ -108,14 +123,11 @@ pub(crate) fn remove_folders(folders: &[PathBuf]) {
     }
 }
 
-/// Removes side files, and their folders where these are empty then.
+/// Removes files that nothing names any more, and side folders where these are empty then.
 pub(crate) fn remove(files: &[PathBuf]) {
-    let in_side = files.iter().filter(|file| file.parent().is_some_and(is_side));
-    let folders: BTreeSet<PathBuf> = in_side
-        .filter_map(|file| {
-            let _ = std::fs::remove_file(file);
-            file.parent().map(Path::to_path_buf)
-        })
-        .collect();
-    remove_folders(&folders.into_iter().collect::<Vec<_>>());
+    for file in files {
+        let _ = std::fs::remove_file(file);
+    }
+    let folders: BTreeSet<PathBuf> = files.iter().filter_map(|file| file.parent()).map(Path::to_path_buf).collect();
+    remove_folders(&folders.into_iter().filter(|folder| is_side(folder)).collect::<Vec<_>>());
 }

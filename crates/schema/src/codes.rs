@@ -86,7 +86,7 @@ codes! {
     MAP_COLOR = "MAP-COLOR", Warning, "A map of numbers is tagged as colors, or was stored with loss: its numbers were taken as they are; save it linear, as PNG without profile, TIFF or EXR.";
     MAP_ESTIMATED = "MAP-ESTIMATED", Note, "A map was estimated from a photograph, not measured: take it as an artist's guess.";
     MAP_FITTED = "MAP-FITTED", Note, "Absorption and scattering of a leaf were found from its measured reflectance and transmittance: these are they.";
-    MAP_NORMALS = "MAP-NORMALS", Warning, "Normals of no length were taken for straight ones: is it a normal map?";
+    MAP_NORMALS = "MAP-NORMALS", Warning, "Normals have no length, or point into the leaf: is it the normal map of that side?";
     MAP_ROUNDED = "MAP-ROUNDED", Note, "A map of coefficients was stored in 8 bits: this is what that costs.";
     MAP_STEEP = "MAP-STEEP", Note, "Thickness rises steeper than 1:1: light leaves through the wall there, which the model does not know.";
     MAP_THIN = "MAP-THIN", Note, "Texels are thinner than any leaf: taken for the least thickness, or, below 0, for no leaf.";

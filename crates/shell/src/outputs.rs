@@ -50,6 +50,24 @@ fn glb_name(input: &Path) -> Result<String, Failure> {
     }
 }
 
+/// Refuses files that would take the place of what was read: names beside `-o` are ours, and one of them may be a map's.
+///
+/// # Errors
+/// [`Failure::Usage`] with the file.
+pub fn refuse_inputs(files: &[OutputFile], read: &[PathBuf]) -> Result<(), Failure> {
+    let whole = |path: &Path| std::fs::canonicalize(path).ok();
+    let read: Vec<PathBuf> = read.iter().filter_map(|path| whole(path)).collect();
+    let old = files.iter().flat_map(|file| foliar_carrier::side_files(&file.path));
+    let mut gone = files.iter().map(|file| file.path.clone()).chain(old);
+    match gone.find(|path| whole(path).is_some_and(|path| read.contains(&path))) {
+        None => Ok(()),
+        Some(path) => Err(Failure::usage(format!(
+            "{}: was read as a map, and would be written over or taken away: name another output with -o",
+            path.display()
+        ))),
+    }
+}
+
 /// Refuses two outputs of one name.
 ///
 /// # Errors

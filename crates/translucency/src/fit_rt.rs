@@ -38,7 +38,7 @@ pub enum FitError {
     /// Less light comes back than the surface alone sends.
     #[error(
         "R = {reflectance}: below {surface:.4}, what the surface alone mirrors at index {index}; if the measurement \
-             left the mirror out, say so"
+             left the mirror out, say --mirror excluded"
     )]
     Mirror {
         /// Reflectance.
@@ -51,7 +51,7 @@ pub enum FitError {
     /// No tissue of this anisotropy and index has both numbers.
     #[error(
         "R = {reflectance}, T = {transmittance}: no tissue of anisotropy {anisotropy} and index {index} has both; \
-             nearest R = {nearest_r:.4}, T = {nearest_t:.4}"
+             nearest R = {nearest_r:.4}, T = {nearest_t:.4}: measure again, or say another --index or --anisotropy"
     )]
     NoTissue {
         /// Reflectance asked for.

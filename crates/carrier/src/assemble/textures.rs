@@ -105,19 +105,18 @@ pub(crate) fn rounding(links: &SheetLinks) -> Option<Finding> {
     let (name, link) = stored.max_by(|a, b| a.1.rms_error.total_cmp(&b.1.rms_error))?;
     let share = link.rms_error / link.mean_scale.max(f64::MIN_POSITIVE);
     let message = format!(
-        "{name} in 8 bits is off by {:.2e} of the light that falls on the leaf, rms, and {:.2e} at most: {:.2} % of the \
-         brightest mean transmission; {}",
+        "{name} in 8 bits is off by {:.2e}, rms, and {:.2e} at most: {:.2} % of the brightest mean transmission; {}",
         link.rms_error,
         link.max_error,
         100.0 * share,
-        if link.exr.is_some() { "the EXR beside it has every bit" } else { "write an EXR to keep every bit" }
+        if link.exr.is_some() { "the EXR beside it loses nothing that shows" } else { "write an EXR to lose nothing" }
     );
     Some(Finding::new(&code::MAP_ROUNDED, message))
 }
 
 /// Both forms of one map, side by side: PNG where asked for, EXR where said whether of half floats.
 pub(crate) fn encode_map(raster: &FloatRaster, png: bool, half: Option<bool>) -> Result<Encoded, CarrierError> {
-    let raster = coefficients::rounded(raster, half.unwrap_or(true));
+    let (raster, halves) = coefficients::rounded(raster, half.unwrap_or(true));
     let filled = coefficients::filled(&raster);
     let (stored, exr) = rayon::join(
         || {
@@ -125,7 +124,7 @@ pub(crate) fn encode_map(raster: &FloatRaster, png: bool, half: Option<bool>) ->
             let bytes = png.then(|| coefficients::png(&stored, raster.width, raster.height)).transpose()?;
             Ok::<_, CarrierError>((stored.link, bytes))
         },
-        || half.map(|half| coefficients::exr(&raster, &filled, half)).transpose(),
+        || half.map(|_| coefficients::exr(&raster, &filled, halves)).transpose(),
     );
     let (link, png) = stored?;
     Ok(Encoded { link, png, exr: exr? })
@@ -195,9 +194,9 @@ fn show(
     let color = color.and_then(|name| {
         builder.document.list("textures").iter().rposition(|t| t.get("name").is_some_and(|n| n == name))
     });
-    // What was divided by its mean is no share of light any more: its mean stands for all of it.
+    // What was divided by a mean is a share of light again times that.
     let mean = facts["maps"][&links.shown]["meanTransmission"].as_f64().unwrap_or(1.0);
-    let factor = if facts["normalize"].as_str().is_none_or(|n| n == "none") { mean_scale } else { mean };
+    let factor = mean_scale * if facts["normalize"].as_str().is_none_or(|n| n == "none") { 1.0 } else { mean };
     for &material in users {
         let pointer = format!("/materials/{material}");
         let info = builder.document.item("materials", material).and_then(base_color_info);

@@ -68,10 +68,10 @@ pub(super) fn bake(
             let text = format!("{room} needs a map of {missing}: give it with --{missing} FILE; {otherwise}");
             return Err(Failure::usage(text));
         }
+        let gathered = maps::gather(&gathering, baker, &own)?;
         if options.mode == Mode::DryRun {
             return Ok(report.planned(output, baker.about()));
         }
-        let gathered = maps::gather(&gathering, baker, &own)?;
         report.find(gathered.findings);
         report.read.extend(gathered.files);
         console.log(&report.lap("read"));
@@ -87,6 +87,7 @@ pub(super) fn bake(
         console.log(&report.lap(room));
         (on_maps.words)(&layer, output).iter().for_each(|line| console.note(line));
         let (files, findings) = (on_maps.encode)(&layer, output)?;
+        outputs::refuse_inputs(&files, &report.read)?;
         report.find(findings);
         console.log(&report.lap("encode"));
         Ok(Product::Files(files))
@@ -111,7 +112,7 @@ fn output(options: &Options, room: &str) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Files of the maps; standard output takes a PNG.
+/// Files of the maps; standard output takes the EXR of the one that is seen.
 fn encode(layer: &Layer, output: &Path) -> Result<Encoded, Failure> {
     if outputs::is_layer(output) {
         return Ok((outputs::encode_layer(layer, output)?, Vec::new()));
@@ -119,7 +120,8 @@ fn encode(layer: &Layer, output: &Path) -> Result<Encoded, Failure> {
     if !is_dash(output) {
         return Ok(foliar_carrier::encode_maps(layer, output)?);
     }
-    let (mut files, findings) = foliar_carrier::encode_maps(layer, Path::new("standard-output.png"))?;
+    // Of one file alone the one that needs no other to be read.
+    let (mut files, _) = foliar_carrier::encode_maps(layer, Path::new("standard-output.exr"))?;
     let shown = files.pop().map(|file| OutputFile { path: output.to_path_buf(), ..file });
-    Ok((shown.into_iter().collect(), findings))
+    Ok((shown.into_iter().collect(), Vec::new()))
 }

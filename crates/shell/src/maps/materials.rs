@@ -10,6 +10,9 @@ use globset::{GlobBuilder, GlobMatcher};
 use serde_json::{Map, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Parameters that say how all maps of a file are stored.
+const OF_THE_FILE: [&str; 2] = ["exr", "embed_all"];
+
 /// The one set of maps that stand alone.
 pub(super) fn alone<'a>(gathering: &Gathering, baker: &dyn Baker, entries: &'a [Entry]) -> Result<Wanted<'a>, Failure> {
     let mut of_map: BTreeMap<&str, &Entry> = BTreeMap::new();
@@ -194,6 +197,9 @@ fn own_given(gathering: &Gathering, baker: &dyn Baker, name: Option<&str>) -> Re
         let field = gathering.fields.find(&format!("{}.{}", baker.room(), key.trim())).map_err(refuse)?;
         if field.map.is_some() || [MATERIAL, FOR_MATERIAL].contains(&key.trim()) {
             return Err(refuse("maps are given as MATERIAL=FILE".into()));
+        }
+        if OF_THE_FILE.contains(&key.trim()) {
+            return Err(refuse(format!("{} is of the whole file, not of a material", key.trim())));
         }
         let value = from_text(field, value.trim()).map_err(refuse)?;
         if name.is_none_or(|name| Pattern::new(pattern.trim()).is_ok_and(|p| p.matches(name))) {

@@ -257,23 +257,27 @@ impl Sheet {
             self.warn_of_slopes(name, map.bits, 2.0 / steps(map.bits));
         }
         let row = |row: &mut [[f32; 3]], texels: &[f32], thickness: &[f32]| {
-            let mut none = 0usize;
+            let mut counts = [0usize; 2];
             for ((normal, values), d) in row.iter_mut().zip(texels.chunks_exact(channels)).zip(thickness) {
                 let n = decoded(values);
                 let length = length(n);
                 let is = length > f32::EPSILON && !is_black(values);
                 *normal = if is { n.map(|v| v / length) } else { [0.0, 0.0, 1.0] };
-                none += usize::from(!is && *d > 0.0);
+                counts[0] += usize::from(!is && *d > 0.0);
+                counts[1] += usize::from(is && n[2] <= 0.0 && *d > 0.0);
             }
-            none
+            counts
         };
         let mut normals = vec![[0.0; 3]; self.thickness_mm.len()];
         let rows = normals.par_chunks_mut(self.width).zip(map.raster.data.par_chunks(self.width * channels));
-        let none: usize =
-            rows.zip(self.thickness_mm.par_chunks(self.width)).map(|((to, from), d)| row(to, from, d)).sum();
-        if none > 0 {
-            let message = format!("{none} normals of the leaf have no length: taken for straight ones");
-            self.findings.push(finding(&code::MAP_NORMALS, name, message));
+        let rows = rows.zip(self.thickness_mm.par_chunks(self.width)).map(|((to, from), d)| row(to, from, d));
+        let counts = rows.reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        let say = [
+            "have no length: taken for straight ones",
+            "point into the leaf, where no light falls in: is the map of this side?",
+        ];
+        for (count, what) in counts.into_iter().zip(say).filter(|(count, _)| *count > 0) {
+            self.findings.push(finding(&code::MAP_NORMALS, name, format!("{count} normals of the leaf {what}")));
         }
         normals
     }

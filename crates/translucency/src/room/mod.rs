@@ -32,7 +32,7 @@ impl Baker for Translucency {
     }
 
     fn version(&self) -> u32 {
-        3
+        4
     }
 
     fn about(&self) -> &'static str {

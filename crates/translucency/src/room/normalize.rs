@@ -47,8 +47,8 @@ fn diffuse(c: &[f32], tables: &Tables) -> f32 {
     ((c[0] + c[1] + c[2]) / SQRT_3 * bend).max(0.0)
 }
 
-/// Least mean that a texel of the leaf stores: 0 says that there is none. The smallest half float of full precision.
-const LEAST_STORED: f32 = 6.103_515_6e-5;
+/// Least mean that a texel of the leaf stores: 0 says that there is none. No half float is 0 there.
+const LEAST_STORED: f32 = 1e-7;
 
 /// Coefficients and the answer to diffuse light, four numbers a texel; nothing where there is no leaf.
 pub fn with_mean(map: &LeafMap, coefficients: &[f32], tables: &Tables) -> Vec<f32> {

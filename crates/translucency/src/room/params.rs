@@ -348,6 +348,17 @@ impl Params {
         if params.curve == AngularCurve::Fitted && params.entry != Entry::Transport {
             return Err(refuse("curve", "fitted needs entry = transport: the other entries have no curve"));
         }
+        let own =
+            [("absorption", params.absorption.is_some()), ("reduced_scattering", params.reduced_scattering.is_some())];
+        let own = own.into_iter().filter_map(|(name, given)| given.then_some(name));
+        let tissue = [("layer", !params.layer.is_empty()), ("fit_rt", params.fit_rt.is_some())];
+        let mut said = tissue.into_iter().filter_map(|(name, given)| given.then_some(name)).chain(own);
+        if let (Some(first @ ("layer" | "fit_rt")), Some(second)) = (said.next(), said.next()) {
+            return Err(refuse(second, format!("and {first} both say the tissue: give one of them")));
+        }
+        if params.mirror != Mirror::default() && params.fit_rt.is_none() {
+            return Err(refuse("mirror", "says how R of fit_rt was measured: give fit_rt too"));
+        }
         if !params.layer.is_empty() && params.model != Model::AddingDoubling {
             return Err(refuse("layer", "several layers need model = adding-doubling"));
         }

@@ -150,13 +150,16 @@ fn walk(inputs: &Inputs, params: &Map<String, Value>, direct: bool) -> Result<Ba
     let (scan, findings) = match inputs.plant {
         Some(plant) if inputs.maps.is_empty() => of_mesh(plant, &params, direct)?,
         Some(_) => return Err(needs("a mesh or height maps, and not both", "leave one of them out")),
-        None => (of_heights(inputs.maps, &params)?, Vec::new()),
+        None => (of_heights(inputs.maps, &params)?, about_bits(inputs.maps, &params)),
     };
     if scan.covered() == 0 {
-        return Err(needs(
-            "a leaf: no texel of the maps holds any",
-            "look at the findings about holes, and at the unit",
-        ));
+        let found: Vec<String> = findings.iter().map(|finding: &Finding| finding.message.clone()).collect();
+        let why = if found.is_empty() {
+            "look at the unit".into()
+        } else {
+            format!("{}; look at the unit too", found.join("; "))
+        };
+        return Err(needs_text("a leaf: no texel of the maps holds any", why));
     }
     if let Some(what) = too_large(&scan) {
         return Err(needs_text("a leaf within a meter", format!("{what}: say --unit, or the scale of the heights")));
@@ -164,6 +167,21 @@ fn walk(inputs: &Inputs, params: &Map<String, Value>, direct: bool) -> Result<Ba
     let resolved = serde_json::to_value(&params).unwrap_or_default();
     let findings = findings.into_iter().chain(about(&scan)).collect();
     Ok(Baked { resolved: resolved.as_object().cloned().unwrap_or_default(), findings, ..baked(scan) })
+}
+
+/// What the steps of 8 bits cost: they are steps of thickness, and turn normals.
+fn about_bits(maps: &Maps, params: &ScanParams) -> Vec<Finding> {
+    let Some((scale, texel)) = params.height_scale_mm.zip(params.texel_mm) else { return Vec::new() };
+    let coarse = maps.iter().filter(|(_, map)| map.bits == 8);
+    let say = |(name, _): (&String, &foliar_bake::MapRaster)| {
+        let step = scale / 255.0;
+        let turned = libm::atan(step / (2.0 * texel)).to_degrees();
+        let message = format!(
+            "8 bits make steps of {step:.5} mm, which turn normals by {turned:.2} degrees: 16 bits or floats cost nothing"
+        );
+        Finding::new(&code::MAP_BITS, message).at(format!("map {name}"))
+    };
+    coarse.map(say).collect()
 }
 
 /// What is no leaf: a texel thicker, or farther from the middle, than a map of a leaf may say.

@@ -197,6 +197,10 @@ fn coarse_and_thin_maps_are_warned_of() {
     none.get_mut(names::MAP_NORMAL_BACK).unwrap().raster.data.fill(0.0);
     none.get_mut(names::MAP_NORMAL_BACK).unwrap().raster.data[0] = -1.0;
     assert_eq!(codes(&none, json!({"texel_mm": 0.5})), ["MAP-NORMALS"]);
+    // Normals of the other side.
+    let inward = none.get_mut(names::MAP_NORMAL_BACK).unwrap().raster.data.chunks_mut(3);
+    inward.for_each(|normal| normal.copy_from_slice(&[0.0, 0.0, -1.0]));
+    assert_eq!(codes(&none, json!({"texel_mm": 0.5})), ["MAP-NORMALS"]);
 }
 
 /// An artist with nothing but a leaf's texture gets a result, which says that it is a guess.
