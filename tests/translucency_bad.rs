@@ -83,7 +83,7 @@ fn bad_maps_and_parameters_are_refused_and_nothing_is_written() {
     let here = folder();
     write_maps(here.path());
     let before = names(here.path());
-    for (what, arguments, status, said) in refused() {
+    for (what, arguments, status, said) in refused().into_iter().chain(refused_parameters()) {
         let run = run_in(here.path(), TRANSLUCENCY, &[&arguments[..], &["-o", "leaf.exr"]].concat());
         assert_eq!(run.status, status, "{what}: {run:?}");
         assert!(said.iter().all(|word| run.stderr.contains(word)), "{what}: {said:?} in {}", run.stderr);
@@ -131,7 +131,7 @@ fn sized(map: &'static str) -> Vec<&'static str> {
     vec!["--thickness", map, "--leaf-width-mm", "60", "--thickness-scale-mm", "0.4"]
 }
 
-/// Name, arguments, status and words of what is refused.
+/// Name, arguments, status and words of maps that are refused.
 fn refused() -> Vec<Row<'static>> {
     let with = |more: &[&'static str]| [sized("t.png"), more.to_vec()].concat();
     vec![
@@ -173,6 +173,13 @@ fn refused() -> Vec<Row<'static>> {
         ("enormous PNG", sized("enormous.png"), 3, vec!["enormous.png", "100000 x 100000", "scale it down"]),
         ("enormous EXR", sized("enormous.exr"), 3, vec!["enormous.exr", "100000 x 100000", "scale it down"]),
         ("enormous TIFF", sized("enormous.tif"), 3, vec!["enormous.tif", "100000 x 100000", "scale it down"]),
+    ]
+}
+
+/// The same of parameters.
+fn refused_parameters() -> Vec<Row<'static>> {
+    let with = |more: &[&'static str]| [sized("t.png"), more.to_vec()].concat();
+    vec![
         ("thin index", with(&["--index", "0.9"]), 2, vec!["index", "at least 1"]),
         ("negative absorption", with(&["--absorption", "-1"]), 2, vec!["absorption", "at least 0"]),
         ("too bright", with(&["--fit-rt", "0.8,0.4"]), 2, vec!["fit_rt", "R + T", "below 1"]),
