@@ -99,6 +99,8 @@ fn walk(
     let mut baked = Baked { findings: std::mem::take(&mut sheet.findings), ..Baked::default() };
     let bands = sheet::recipes(&params, &sheet)?;
     let sides = params.sides.list();
+    let size = [sheet.width, sheet.height];
+    let by = texels::merged(sheet.texel_mm, size, params.coarsest_mm);
     let mut maps = Map::new();
     let (mut done, mut cost) = (0, 0.0f64);
     baked.findings.extend(sheet::fitted_tissue(&params, &bands));
@@ -114,8 +116,6 @@ fn walk(
             let name = format!("{raster}{}", band.suffix);
             maps.insert(name.clone(), band.facts(&tables, &recipe, facts.mean));
             let texels = normalize::with_mean(&map, &coefficients, &tables);
-            let size = [map.width, map.height];
-            let by = texels::merged(sheet.texel_mm, size, params.coarsest_mm);
             baked.rasters.insert(name, texels::coarser(texels, size, by));
             done += 1;
         }
@@ -123,7 +123,6 @@ fn walk(
     baked.findings.extend(sheet.warning_of_steps(cost));
     let resolved = serde_json::to_value(&params).unwrap_or_default();
     baked.resolved = resolved.as_object().cloned().unwrap_or_default();
-    let by = texels::merged(sheet.texel_mm, [sheet.width, sheet.height], params.coarsest_mm);
     baked.facts = sheet.facts(&params, by, maps);
     Ok(baked)
 }
