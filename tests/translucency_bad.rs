@@ -201,7 +201,13 @@ fn refused_parameters() -> Vec<Row<'static>> {
         ("infrared", with(&["--wavelength-nm", "900"]), 2, vec!["wavelength_nm", "680"]),
         ("twice", with(&["--thickness", "small.png"]), 2, vec!["twice", "small.png"]),
         ("photograph alone", with(&["--backlit", "t.png"]), 2, vec!["name the tree"]),
-        ("bad override", with(&["--for-material", "x"]), 2, vec!["MATERIAL:KEY=VALUE"]),
+        ("override of no tree", with(&["--for-material", "x:preset=dark"]), 2, vec!["--for-material", "name the tree"]),
+        ("embedded into no tree", with(&["--embed-all"]), 2, vec!["--embed-all", "name the tree"]),
+        ("material of no tree", with(&["--height-back", "oak=small.png"]), 2, vec!["--height-back", "name the tree"]),
+        ("role of no tree", with(&["--leaf", "oak"]), 2, vec!["--leaf", "leave it out", "name the tree"]),
+        ("cache of no tree", with(&["--cache", "there"]), 2, vec!["--cache", "leave it out"]),
+        ("roles of no tree", with(&["--explain-roles"]), 2, vec!["--explain-roles", "leave it out"]),
+        ("scene of no tree", with(&["--set", "scene.camera.nearest_m=2"]), 2, vec!["scene.camera", "leave it out"]),
     ]
 }
 
@@ -231,6 +237,18 @@ fn bad_maps_of_a_tree_leave_it_as_it_was() {
         ),
         ("no such material", vec!["tree.obj", "--thickness", "bread=t.png"], 2, vec!["bread", "leaves"]),
         (
+            "bad override",
+            vec!["tree.obj", "--thickness", "t.png", "--for-material", "x"],
+            2,
+            vec!["MATERIAL:KEY=VALUE"],
+        ),
+        (
+            "override of no material",
+            vec!["tree.obj", "--thickness", "t.png", "--for-material", "bread:preset=dark"],
+            2,
+            vec!["bread", "there are: leaves"],
+        ),
+        (
             "bad photograph",
             vec!["tree.obj", "--thickness", "t.png", "--backlit", "nan.exr"],
             3,
@@ -250,6 +268,20 @@ fn bad_maps_of_a_tree_leave_it_as_it_was() {
     // A project's file may name maps of other trees: said, not refused.
     std::fs::write(here.path().join("foliar.toml"), "[translucency]\nthickness = ['oak=t.png']\n").unwrap();
     run_in(here.path(), FOLIAR, &["bake", "tree.obj", "-o", "fine.glb"]).expect(0, &["MAP-UNUSED", "oak"]);
+}
+
+/// What has no say is said: by the room through its parameters, and of a map of the side that no light falls on.
+#[test]
+fn what_has_no_say_is_said() {
+    let here = folder();
+    thickness(here.path(), "t.png", 16, 0.1);
+    ImageBuffer::from_pixel(16, 16, Rgb([128u16, 128, 255])).save(here.path().join("n.png")).unwrap();
+    let bake = |more: &[&'static str], said: &[&str]| {
+        let run = run_in(here.path(), TRANSLUCENCY, &[&sized("t.png")[..], &["-o", "leaf.exr"], more].concat());
+        run.expect(0, said);
+    };
+    bake(&["--wavelength-nm", "600", "--bands", "rgb"], &["PARAM-IDLE", "[translucency] wavelength_nm", "550"]);
+    bake(&["--normal-front", "n.png", "--sides", "front"], &["MAP-UNUSED", "n.png", "lit from the back"]);
 }
 
 /// What is warned of, not refused: few bits, tags of color; and the smallest maps.

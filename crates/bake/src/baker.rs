@@ -143,6 +143,22 @@ pub struct Rung {
     pub promise_steps: f64,
 }
 
+/// A parameter that has no say beside the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Idle {
+    /// Its name.
+    pub param: &'static str,
+    /// Why, as the end of a sentence: "of `param` nothing is read: ...".
+    pub because: &'static str,
+}
+
+impl Idle {
+    /// Those of `params` where `idle` holds.
+    pub fn where_holds(idle: bool, params: &'static [&'static str], because: &'static str) -> Vec<Idle> {
+        params.iter().filter(|_| idle).map(|param| Idle { param, because }).collect()
+    }
+}
+
 /// What a room hands back: arrays, the parameters as it used them, and facts for the record.
 #[derive(Clone, Debug, Default)]
 pub struct Baked {
@@ -211,6 +227,11 @@ pub trait Baker: Sync {
 
     /// Rungs that law 5, tradeoff and bench walk.
     fn ladder(&self) -> Vec<Rung>;
+
+    /// Parameters that would have no say beside the others and these inputs: whoever gave one of them is told.
+    fn idle(&self, _inputs: &Inputs, _params: &Map<String, Value>) -> Vec<Idle> {
+        Vec::new()
+    }
 
     /// Bakes. `params` holds every parameter, defaults included, ranges checked.
     ///

@@ -15,7 +15,8 @@ mod run;
 
 pub use array::Array;
 pub use baker::{
-    Baked, Baker, BranchFacts, Enclose, Facts, Hull, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung, pixel_m,
+    Baked, Baker, BranchFacts, Enclose, Facts, Hull, Idle, Inputs, Maps, Needs, Progress, Quiet, Requirement, Rung,
+    pixel_m,
 };
 pub use error::BakeError;
 pub use hash::base_hash;

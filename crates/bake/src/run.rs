@@ -72,9 +72,30 @@ pub fn run(
     if let Some(missing) = baker.needs().maps.iter().find(|m| !inputs.maps.contains_key(**m)) {
         return Err(BakeError::Needs { room: baker.room().into(), what: missing, remedy: "give the map".into() });
     }
-    let baked = baker.bake(inputs, &params, progress)?;
+    let mut baked = baker.bake(inputs, &params, progress)?;
     check_baked(baker.room(), &baked)?;
+    baked.findings.extend(idle(baker, inputs, &params, &request.given));
     Ok(into_layer(baker, request, baked))
+}
+
+/// What was given and has no say: it is no error, for a section may serve a whole library, but nobody must believe that it
+/// was heard.
+fn idle(
+    baker: &dyn Baker,
+    inputs: &Inputs,
+    params: &Map<String, Value>,
+    given: &Map<String, Value>,
+) -> Vec<foliar_schema::Finding> {
+    let said = baker.idle(inputs, params).into_iter().filter(|idle| given.contains_key(idle.param));
+    let finding = |idle: crate::Idle| {
+        let message = format!("{} has no say: {}", idle.param, idle.because);
+        foliar_schema::Finding::new(&foliar_schema::code::PARAM_IDLE, message).at(format!(
+            "[{}] {}",
+            baker.room(),
+            idle.param
+        ))
+    };
+    said.map(finding).collect()
 }
 
 fn into_layer(baker: &dyn Baker, request: &Request, baked: Baked) -> (Layer, Vec<foliar_schema::Finding>) {

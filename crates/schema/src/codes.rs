@@ -90,12 +90,13 @@ codes! {
     MAP_ROUNDED = "MAP-ROUNDED", Note, "A map of coefficients was stored in 8 bits: this is what that costs.";
     MAP_STEEP = "MAP-STEEP", Note, "Thickness rises steeper than 1:1: light leaves through the wall there, which the model does not know.";
     MAP_THIN = "MAP-THIN", Note, "Texels are thinner than any leaf: taken for the least thickness, or, below 0, for no leaf.";
-    MAP_UNUSED = "MAP-UNUSED", Warning, "A map was given for a material that no leaf has: correct the name, or take it out.";
+    MAP_UNUSED = "MAP-UNUSED", Warning, "A map, or a parameter of a material, was given and nothing reads it: for a material that no leaf has, or a side that no light falls on; correct the name, or take it out.";
     MATERIAL_CULLED = "MATERIAL-CULLED", Warning, "A leaf material is seen from one side only, and its leaves have no back: half of them vanish; set doubleSided.";
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";
     NEIGHBOR_COINCIDES = "NEIGHBOR-COINCIDES", Warning, "A neighbor is the plant itself, or another neighbor, at the same place: its foliage counts twice; move it or take it out.";
     PACK_BUDGET = "PACK-BUDGET", Warning, "Packing adds more bytes per vertex than scene.budget.bytes_per_vertex allows: raise it, or bake fewer channels.";
     PACK_LEFT_OUT = "PACK-LEFT-OUT", Warning, "Attributes of the base that the engine cannot take beside foliar's were left out of the packed file.";
+    PARAM_IDLE = "PARAM-IDLE", Warning, "A parameter was given that has no say beside the others: nothing was read of it; take it out, or give what it needs.";
     QUALITY_MISSED = "QUALITY-MISSED", Warning, "A channel's measured error is above the `quality` that was asked for: ask for less, or take the finding as the error.";
     RECORD_UNKNOWN = "RECORD-UNKNOWN", Note, "A record of an unknown room or a newer contract was kept as it is.";
     REQUIRED_MISSING = "REQUIRED-MISSING", Error, "What --require asks for is not in the file: bake it.";

@@ -56,6 +56,7 @@ pub(super) fn bake(
     let options = Options::from(call.matches);
     let console = options.console();
     let room = baker.room();
+    refuse_what_is_of_a_tree(&options, sources, room, on_maps.otherwise)?;
     let job = Job { input: PathBuf::from(room), output: Some(output.to_path_buf()) };
     runner::run(&options, &console, &[job], &mut |_, report| {
         let mut settings = sources.gather(&options, Path::new(""), Settings::default())?;
@@ -92,6 +93,18 @@ pub(super) fn bake(
         console.log(&report.lap("encode"));
         Ok(Product::Files(files))
     })
+}
+
+/// Flags of which nothing would be read, for there is no tree or mesh.
+fn refuse_what_is_of_a_tree(options: &Options, sources: &Sources, room: &str, otherwise: &str) -> Result<(), Failure> {
+    let switches = [("--cache", options.cache.is_some()), ("--explain-roles", options.explain_roles)];
+    let switch = switches.into_iter().find_map(|(name, given)| given.then(|| name.to_owned()));
+    match switch.or_else(|| sources.flags.outside(room).map(|given| given.origin.to_string())) {
+        Some(flag) => Err(Failure::usage(format!(
+            "{flag} has no say where maps are all that is given: leave it out; {otherwise}"
+        ))),
+        None => Ok(()),
+    }
 }
 
 fn output(options: &Options, room: &str) -> Result<PathBuf, Failure> {

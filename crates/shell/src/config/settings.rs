@@ -96,6 +96,12 @@ impl Settings {
         all.filter(move |(dotted, _)| dotted.ends_with(ending))
     }
 
+    /// The first that was given outside a section.
+    pub fn outside(&self, section: &str) -> Option<&Given> {
+        let inside = |dotted: &str| dotted.strip_prefix(section).is_some_and(|rest| rest.starts_with('.'));
+        self.given.iter().find(|(dotted, _)| !inside(dotted)).map(|(_, given)| given)
+    }
+
     /// Whether anything of a section was given.
     pub fn has_section(&self, section: &str) -> bool {
         self.section_values(section).next().is_some()

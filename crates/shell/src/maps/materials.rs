@@ -13,6 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Parameters that say how all maps of a file are stored.
 const OF_THE_FILE: [&str; 2] = ["exr", "embed_all"];
 
+/// Parameters that say nothing without a tree.
+const OF_A_TREE: [&str; 3] = [MATERIAL, FOR_MATERIAL, "embed_all"];
+
 /// The one set of maps that stand alone.
 pub(super) fn alone<'a>(gathering: &Gathering, baker: &dyn Baker, entries: &'a [Entry]) -> Result<Wanted<'a>, Failure> {
     let mut of_map: BTreeMap<&str, &Entry> = BTreeMap::new();
@@ -29,6 +32,15 @@ pub(super) fn alone<'a>(gathering: &Gathering, baker: &dyn Baker, entries: &'a [
     }
     if let Some(entry) = of_map.get(names::MAP_BACKLIT) {
         let text = format!("{}: a backlit photograph is passed on into a tree: name the tree", entry.origin);
+        return Err(Failure::usage(text));
+    }
+    let named = entries.iter().find(|entry| entry.pattern.is_some()).map(|entry| &entry.origin);
+    let of_materials = OF_A_TREE.iter().filter_map(|key| {
+        let given = gathering.settings.get(&format!("{}.{key}", baker.room()))?;
+        matches!(given.origin, Origin::Flag(_)).then_some(&given.origin)
+    });
+    if let Some(origin) = named.into_iter().chain(of_materials).next() {
+        let text = format!("{origin} is about the materials of a tree: name the tree, or leave it out");
         return Err(Failure::usage(text));
     }
     Ok(Wanted { name: String::new(), entries: of_map, given: own_given(gathering, baker, None)? })
@@ -66,6 +78,7 @@ pub(super) fn by_material<'a>(
     findings: &mut Vec<Finding>,
 ) -> Result<Vec<Wanted<'a>>, Failure> {
     let leaves = leaf_materials(plant);
+    refuse_no_material(gathering, baker, &leaves, findings)?;
     let unnamed = unnamed_patterns(gathering, baker)?;
     let mut of: BTreeMap<&str, BTreeMap<&str, &Entry>> = BTreeMap::new();
     for entry in entries {
@@ -119,7 +132,6 @@ fn meant<'a>(
     leaves: &'a [String],
     findings: &mut Vec<Finding>,
 ) -> Result<Vec<&'a String>, Failure> {
-    let listed = || if leaves.is_empty() { "none".to_owned() } else { leaves.join(", ") };
     let hit: Vec<&String> = match (patterns.is_empty(), leaves) {
         (true, [] | [_]) => leaves.iter().collect(),
         (true, _) => {
@@ -128,7 +140,7 @@ fn meant<'a>(
                 entry.map,
                 entry.origin,
                 leaves.len(),
-                listed()
+                listed(leaves)
             );
             return Err(Failure::usage(text));
         }
@@ -136,19 +148,23 @@ fn meant<'a>(
     };
     if hit.is_empty() {
         let pattern = entry.pattern.as_ref().map_or_else(String::new, |pattern| format!("{pattern}="));
-        let text = format!(
-            "map {} {pattern}{} ({}) is for no leaf material of this tree; there are: {}",
-            entry.map,
-            entry.file.display(),
-            entry.origin,
-            listed()
-        );
-        if matches!(entry.origin, Origin::Flag(_)) {
-            return Err(Failure::usage(text));
-        }
-        findings.push(Finding::new(&code::MAP_UNUSED, text));
+        let what = format!("map {} {pattern}{}", entry.map, entry.file.display());
+        findings.push(for_nothing(&what, &entry.origin, leaves)?);
     }
     Ok(hit)
+}
+
+fn listed(leaves: &[String]) -> String {
+    if leaves.is_empty() { "none".into() } else { leaves.join(", ") }
+}
+
+/// What is for no material of this tree: a failure where it was typed for this bake, else a finding, for a file serves many.
+fn for_nothing(what: &str, origin: &Origin, leaves: &[String]) -> Result<Finding, Failure> {
+    let text = format!("{what} ({origin}) is for no leaf material of this tree; there are: {}", listed(leaves));
+    match origin {
+        Origin::Flag(_) => Err(Failure::usage(text)),
+        _ => Ok(Finding::new(&code::MAP_UNUSED, text)),
+    }
 }
 
 /// A pattern over names of materials, case ignored, as patterns of roles are.
@@ -181,6 +197,23 @@ fn unnamed_patterns(gathering: &Gathering, baker: &dyn Baker) -> Result<Vec<Patt
     texts(gathering, baker, MATERIAL).map(|(text, _)| Pattern::new(text)).collect()
 }
 
+/// Looks for what is for a material that no leaf has, as [`meant`] does for maps.
+fn refuse_no_material(
+    gathering: &Gathering,
+    baker: &dyn Baker,
+    leaves: &[String],
+    findings: &mut Vec<Finding>,
+) -> Result<(), Failure> {
+    for (text, from) in texts(gathering, baker, FOR_MATERIAL) {
+        let Some((pattern, _)) = text.split_once('=').and_then(|(place, _)| place.rsplit_once(':')) else { continue };
+        let pattern = Pattern::new(pattern.trim())?;
+        if !leaves.iter().any(|name| pattern.matches(name)) {
+            findings.push(for_nothing(&format!("{FOR_MATERIAL} {text:?}"), &from.origin, leaves)?);
+        }
+    }
+    Ok(())
+}
+
 /// What was given for a material: the section, and over it what is for this material alone.
 fn own_given(gathering: &Gathering, baker: &dyn Baker, name: Option<&str>) -> Result<Map<String, Value>, Failure> {
     let mut given = gathering.settings.given(baker.room());
@@ -202,7 +235,8 @@ fn own_given(gathering: &Gathering, baker: &dyn Baker, name: Option<&str>) -> Re
             return Err(refuse(format!("{} is of the whole file, not of a material", key.trim())));
         }
         let value = from_text(field, value.trim()).map_err(refuse)?;
-        if name.is_none_or(|name| Pattern::new(pattern.trim()).is_ok_and(|p| p.matches(name))) {
+        let pattern = Pattern::new(pattern.trim())?;
+        if name.is_some_and(|name| pattern.matches(name)) {
             given.insert(key.trim().into(), value);
         }
     }

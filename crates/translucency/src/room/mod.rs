@@ -1,5 +1,6 @@
 //! The room: maps of a leaf in, a map of coefficients for each side out.
 
+mod idle;
 mod input;
 mod normalize;
 mod params;
@@ -11,7 +12,7 @@ pub use params::{
 };
 
 use crate::map::{LeafMap, Tables, coefficient_map, reference};
-use foliar_bake::{BakeError, Baked, Baker, Facts, Inputs, Needs, Progress, Requirement, Rung, pixel_m};
+use foliar_bake::{BakeError, Baked, Baker, Facts, Idle, Inputs, Needs, Progress, Requirement, Rung, pixel_m};
 use foliar_schema::{Finding, Scene, names};
 use input::Sheet;
 use serde_json::{Map, Value, json};
@@ -75,6 +76,10 @@ impl Baker for Translucency {
         ]
     }
 
+    fn idle(&self, inputs: &Inputs, params: &Map<String, Value>) -> Vec<Idle> {
+        Params::from_json(params).map(|params| idle::params(&params, inputs.maps)).unwrap_or_default()
+    }
+
     fn bake(&self, inputs: &Inputs, params: &Map<String, Value>, progress: &dyn Progress) -> Result<Baked, BakeError> {
         walk(inputs, params, progress, |map, tables, _| coefficient_map(map, tables))
     }
@@ -103,6 +108,7 @@ fn walk(
     let by = texels::merged(sheet.texel_mm, size, params.coarsest_mm);
     let mut maps = Map::new();
     let (mut done, mut cost) = (0, 0.0f64);
+    baked.findings.extend(idle::maps(params.sides, inputs.maps));
     baked.findings.extend(sheet::fitted_tissue(&params, &bands));
     for (side, raster) in sides {
         let map = sheet.lit_side(*side);

@@ -2,7 +2,9 @@
 
 use super::{Frame, Scan, Solid, between_heights, in_texture, project};
 use crate::map::LeafMap;
-use foliar_bake::{BakeError, Baked, Baker, Facts, FloatRaster, Inputs, Maps, Needs, Progress, Requirement, Rung};
+use foliar_bake::{
+    BakeError, Baked, Baker, Facts, FloatRaster, Idle, Inputs, Maps, Needs, Progress, Requirement, Rung,
+};
 use foliar_numerics::find_first;
 use foliar_plant::Plant;
 use foliar_schema::{CodeInfo, Finding, Scene, code, names};
@@ -127,6 +129,19 @@ impl Baker for Leafscan {
             promise_steps: EXACT_STEPS,
         };
         vec![rung("plane", json!({"resolution": 64})), rung("uv", json!({"resolution": 64, "unwrap": "uv"}))]
+    }
+
+    fn idle(&self, inputs: &Inputs, params: &Map<String, Value>) -> Vec<Idle> {
+        let of_heights = &["texel_mm", "height_scale_mm", "height_offset_mm", "gap_mm"];
+        let of_a_mesh = &["resolution", "unwrap", "face", "smooth_mm"];
+        if inputs.plant.is_none() {
+            return Idle::where_holds(true, of_a_mesh, "it is for a mesh, and height maps are given");
+        }
+        let in_texture = params.get("unwrap").is_some_and(|unwrap| unwrap == "uv");
+        let mut idle = Idle::where_holds(true, of_heights, "it is for height maps, and a mesh is given");
+        idle.extend(Idle::where_holds(in_texture, &["face"], "unwrap = uv has the front where the texture has it"));
+        idle.extend(Idle::where_holds(!in_texture, &["smooth_mm"], "it is for unwrap = uv"));
+        idle
     }
 
     fn bake(&self, inputs: &Inputs, params: &Map<String, Value>, progress: &dyn Progress) -> Result<Baked, BakeError> {

@@ -1,6 +1,7 @@
 //! Tests against oracles and laws.
 
 mod fits;
+mod heard;
 mod lights;
 mod maps;
 mod photos;

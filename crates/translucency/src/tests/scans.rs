@@ -209,7 +209,7 @@ fn heights_of_both_sides_are_a_leaf() {
 }
 
 /// A leaf of millimeters as a plant of meters, without structure.
-fn plant(mesh: &LeafMesh) -> Plant {
+pub(super) fn plant(mesh: &LeafMesh) -> Plant {
     let corners = || mesh.triangles.iter().flatten();
     let part = Part {
         positions: corners().map(|p| (p / 1000.0).as_vec3()).collect(),

@@ -1,0 +1,52 @@
+//! Parameters and maps that have no say beside the others.
+
+use super::finding;
+use super::params::{Bands, Params, Sides, ThicknessFrom};
+use crate::map::Spreading;
+use foliar_bake::{Idle, Maps};
+use foliar_schema::{Finding, code, names};
+
+/// Parameters of which nothing is read.
+pub(super) fn params(params: &Params, maps: &Maps) -> Vec<Idle> {
+    let dark = of_the_dark(params.sides);
+    let has = |names: &[&str]| names.iter().any(|name| maps.contains_key(*name) && !dark.contains(name));
+    let photo = params.thickness_from == ThicknessFrom::Photo;
+    let own = params.absorption.is_some() && params.reduced_scattering.is_some();
+    let tissue = own || !params.layer.is_empty() || params.fit_rt.is_some();
+    let rules: [(bool, &'static [&'static str], &'static str); 10] = [
+        // Of all kinds the index of refraction is the same.
+        (tissue && !photo && !has(&[names::MAP_ALBEDO]), &["preset"], "the tissue is given"),
+        (params.bands == Bands::Rgb, &["wavelength_nm"], "bands = rgb bakes 610, 550 and 450 nm"),
+        (params.spread == Spreading::None, &["filters"], "spread = none has no filters"),
+        (!photo, &["veins", "thickness_mean_mm"], "it is for thickness_from = photo"),
+        (
+            photo,
+            &["thickness_scale_mm", "thickness_offset_mm"],
+            "a photograph holds no thickness; thickness_mean_mm says its mean",
+        ),
+        (!has(&[names::MAP_HEIGHT_FRONT, names::MAP_HEIGHT_BACK]), &["height_scale_mm"], "no map of heights is given"),
+        (!has(&[names::MAP_NORMAL_BACK]), &["normal_frame"], "no normal map of the back is given"),
+        (!has(&[names::MAP_NORMAL_FRONT, names::MAP_NORMAL_BACK]), &["normal_y"], "no normal map is given"),
+        (!params.layer.is_empty(), &["anisotropy"], "each layer says its own"),
+        (params.embed_all, &["exr"], "embed_all writes no EXR"),
+    ];
+    rules.into_iter().flat_map(|(idle, params, because)| Idle::where_holds(idle, params, because)).collect()
+}
+
+/// Maps of the side that no light falls on.
+fn of_the_dark(sides: Sides) -> &'static [&'static str] {
+    match sides {
+        Sides::Both => &[],
+        Sides::Front => &[names::MAP_NORMAL_FRONT, names::MAP_HEIGHT_FRONT],
+        Sides::Back => &[names::MAP_NORMAL_BACK, names::MAP_HEIGHT_BACK],
+    }
+}
+
+/// What is said of maps that nothing reads.
+pub(super) fn maps(sides: Sides, maps: &Maps) -> Vec<Finding> {
+    let (shown, lit) = if sides == Sides::Front { ("front", "back") } else { ("back", "front") };
+    let message =
+        format!("was not read: sides = {shown} bakes what is seen on the {shown}, which is lit from the {lit}");
+    let unused = of_the_dark(sides).iter().filter(|name| maps.contains_key(**name));
+    unused.map(|name| finding(&code::MAP_UNUSED, name, message.clone())).collect()
+}
