@@ -6,6 +6,7 @@ use crate::common::{
 use foliar_carrier::second_reader::verify_file;
 use image::{ImageBuffer, Luma, Rgb};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A round leaf of .1 to .3 mm in a map of 16 bits whose white is .4 mm; other `bump`s are other leaves.
@@ -256,11 +257,26 @@ fn photographs_are_passed_on_and_embedded_maps_stand_alone() {
     let view = &json["bufferViews"][view.as_u64().unwrap() as usize];
     let start = view["byteOffset"].as_u64().unwrap_or(0) as usize;
     assert!(binary[start..].starts_with(&bytes), "the color is the photograph");
+    // What is there in 8 bits alone stays the same 8 bits, however often another room is baked onto it.
+    let (before, links) = (pictures(&baked), foliage(&baked)["translucency"].clone());
     let again = run(DENSITY, &[text(&baked), "-o", text(&baked)]).expect(0, &[]);
     assert!(again.stdout.contains("written"), "{again:?}");
     verify_file(&baked).unwrap();
+    assert!(pictures(&baked) == before && foliage(&baked)["translucency"] == links);
     let again = run(DENSITY, &[text(&baked), "-o", text(&baked)]).expect(0, &[]);
     assert!(again.stdout.contains("unchanged"), "{again:?}");
+}
+
+/// Bytes of the pictures that foliar wrote, by name.
+fn pictures(file: &Path) -> BTreeMap<String, Vec<u8>> {
+    let (json, binary) = open_glb(file);
+    let bytes = |image: &serde_json::Value| {
+        let view = &json["bufferViews"][image["bufferView"].as_u64().unwrap() as usize];
+        let at = view["byteOffset"].as_u64().unwrap_or(0) as usize;
+        binary[at..at + view["byteLength"].as_u64().unwrap() as usize].to_vec()
+    };
+    let images = json["images"].as_array().unwrap().iter().filter(|image| image["name"].is_string());
+    images.map(|image| (image["name"].as_str().unwrap().to_owned(), bytes(image))).collect()
 }
 
 /// Three bands of both sides on a tree: beside it, or in it.

@@ -1,6 +1,6 @@
 //! `foliar-translucency`: every flag does what it says, from scans, photographs and maps.
 
-use crate::common::{LEAFSCAN, TRANSLUCENCY, folder, run_in};
+use crate::common::{LEAFSCAN, TRANSLUCENCY, VIEW, folder, run_in, text};
 use crate::translucency::{normals, thickness, with_flags};
 use foliar_carrier::images::read_map;
 use image::{ImageBuffer, Rgb, Rgba};
@@ -161,4 +161,39 @@ fn a_stock_viewer_sees_as_much_light_whatever_a_map_was_divided_by() {
         // Texels beyond the leaf are filled, and count here too.
         assert!((found / physical - 1.0).abs() < 0.1, "{normalize}: {found}, not {physical}");
     }
+}
+
+/// What ships: heights become the thickness that lies beside them, and a leaf of a tree is drawn.
+#[test]
+fn the_leaf_that_ships_goes_through_every_program() {
+    let here = folder();
+    let ships = |file: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures").join(file);
+    let leaf = |name: &str| ships(&format!("leaf/{name}.png"));
+    let [thickness, front, back] = ["thickness", "height-front", "height-back"].map(leaf);
+    let heights = ["--height-front", text(&front), "--height-back", text(&back), "--height-scale-mm", "1"];
+    let scan = ["--height-offset-mm=-0.4", "--texel-mm", "0.3125", "-o", "scan.exr"];
+    run_in(here.path(), LEAFSCAN, &[&heights[..], &scan].concat()).expect(0, &[]);
+    let bytes = std::fs::read(here.path().join("scan.exr")).unwrap();
+    let scanned = read_map(&bytes, "scan.exr").unwrap().map.raster;
+    let bytes = std::fs::read(&thickness).unwrap();
+    let own = read_map(&bytes, "thickness.png").unwrap().map.raster;
+    let most = scanned.data.iter().zip(&own.data).map(|(a, b)| (a - 0.5 * b).abs()).fold(0.0, f32::max);
+    // Each height is right to half a step of 1 / 65,535 mm, the thickness to half of that; the EXR holds half floats.
+    assert!(most < 1.25 / 65_535.0 + 0.5 / 4096.0, "{most}");
+    let linden = ships("linden/linden.obj");
+    let size = ["--thickness-scale-mm", "0.5", "--leaf-width-mm", "80"];
+    let bake = [text(&linden), "--thickness", text(&thickness), "-o", "linden.glb"];
+    run_in(here.path(), TRANSLUCENCY, &[&bake[..], &size, &heights].concat()).expect(0, &[]);
+    let view = |more: &[&str], status, said: &[&str]| {
+        run_in(here.path(), VIEW, &[&["linden.glb", "-o", "leaf.png"], more].concat()).expect(status, said)
+    };
+    view(&["--light-through"], 0, &[]);
+    let sheet = image::open(here.path().join("leaf.png")).unwrap();
+    view(&["--light-through=bread"], 2, &["which leaf", "there are: "]);
+    view(&["--light-through", "--sheet"], 2, &["--light-through"]);
+    view(&["--light-through", "--against", "linden.glb"], 0, &[]);
+    let held = image::open(here.path().join("leaf.png")).unwrap();
+    assert!(sheet.height() > held.height() && sheet.width() > held.width());
+    run_in(here.path(), VIEW, &[text(&linden), "--light-through", "-o", "none.png"]).expect(2, &["bake them first"]);
+    assert!(!here.path().join("none.png").exists());
 }

@@ -24,6 +24,7 @@ Register-ArgumentCompleter -Native -CommandName 'foliar-view' -ScriptBlock {
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output: .png, or - for standard output')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output: .png, or - for standard output')
             [CompletionResult]::new('--against', '--against', [CompletionResultType]::ParameterName, 'Draws FILE beside it, and what differs')
+            [CompletionResult]::new('--light-through', '--light-through', [CompletionResultType]::ParameterName, 'Draws a leaf material by itself, both sides lit from behind, with its coefficient maps; with --against beside another bake of it')
             [CompletionResult]::new('--turntable', '--turntable', [CompletionResultType]::ParameterName, 'Draws an animated PNG: the plant turns once in so many pictures, 24 a second')
             [CompletionResult]::new('--sway', '--sway', [CompletionResultType]::ParameterName, 'Draws an animated PNG: the plant in a storm, 24 pictures a second; with --sheet levels, weights, phases and six times')
             [CompletionResult]::new('--up', '--up', [CompletionResultType]::ParameterName, 'Axis of an OBJ that points up; nothing said means y.')

@@ -23,7 +23,7 @@ _foliar__view() {
 
     case "${cmd}" in
         foliar__view)
-            opts="-o -q -v -h -V --output --sheet --channels --against --turntable --sway --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --width-px --height-px --samples --look --line-normals --line-angle-deg --line-width-px --line-detail-px --neighbor --channel --azimuth-deg --elevation-deg --fov-deg --target-m --distance-m --sun-azimuth-deg --sun-elevation-deg --exposure --background --ground --scale --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
+            opts="-o -q -v -h -V --output --sheet --channels --against --light-through --turntable --sway --up --height-m --node --scene --expand-instances --search --texture --leaf --wood --other --width-px --height-px --samples --look --line-normals --line-angle-deg --line-width-px --line-detail-px --neighbor --channel --azimuth-deg --elevation-deg --fov-deg --target-m --distance-m --sun-azimuth-deg --sun-elevation-deg --exposure --background --ground --scale --unit --set --config --no-config --dry-run --check --outputs --report --depfile --fail-on --threads --quiet --verbose --format --help --version"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -38,6 +38,10 @@ _foliar__view() {
                     return 0
                     ;;
                 --against)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --light-through)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -1,5 +1,6 @@
 complete -c foliar-view -s o -l output -d 'Output: .png, or - for standard output' -r -F
 complete -c foliar-view -l against -d 'Draws FILE beside it, and what differs' -r -F
+complete -c foliar-view -l light-through -d 'Draws a leaf material by itself, both sides lit from behind, with its coefficient maps; with --against beside another bake of it' -r
 complete -c foliar-view -l turntable -d 'Draws an animated PNG: the plant turns once in so many pictures, 24 a second' -r
 complete -c foliar-view -l sway -d 'Draws an animated PNG: the plant in a storm, 24 pictures a second; with --sheet levels, weights, phases and six times' -r
 complete -c foliar-view -l up -d 'Axis of an OBJ that points up; nothing said means y.' -r -f -a "y\t'Y up, as glTF has it.'

@@ -1,5 +1,6 @@
 //! Fixtures are functions first, files second: writes them, and says whether the files are what the functions give.
 
+mod leaf;
 mod near;
 mod plant;
 mod rules;
@@ -57,7 +58,7 @@ pub fn write_large() -> Result<PathBuf> {
 
 /// Every fixture, by path from the root.
 fn all() -> Result<Vec<(String, Vec<u8>)>> {
-    Ok(linden()?.into_iter().chain(rules::files()?).collect())
+    Ok(linden()?.into_iter().chain(leaf::files()?).chain(rules::files()?).collect())
 }
 
 /// Files of the linden, by path from the root.

@@ -2,7 +2,7 @@
 
 use crate::{Array, FloatRaster};
 use foliar_plant::Place;
-use foliar_schema::{Record, Role};
+use foliar_schema::{MapLink, Record, Role};
 use std::collections::BTreeMap;
 
 /// Names an attribute: values per vertex of one primitive.
@@ -35,6 +35,8 @@ pub struct Layer {
     pub columns: BTreeMap<ColumnKey, Array>,
     /// Rasters by name; those of one leaf material among several are named `SHEET/NAME`.
     pub rasters: BTreeMap<String, FloatRaster>,
+    /// Rasters of a master that are there in 8 bits alone: how they are stored, so that they are stored so again.
+    pub in_8_bits: BTreeMap<String, MapLink>,
     /// Pictures that are passed on as they came, PNG or JPEG bytes, named like rasters.
     pub pictures: BTreeMap<String, Vec<u8>>,
     /// Role of each primitive; only the layer of `structure` has them.

@@ -1,6 +1,8 @@
 //! Maps of coefficients as files hold them: filled beyond the leaf so that no mip bleeds over its rim, and in 8 bits with
 //! the scale and bias that cost least.
 
+mod range;
+
 use crate::{CarrierError, raster_file};
 use foliar_bake::FloatRaster;
 use foliar_schema::MapLink;
@@ -8,14 +10,11 @@ use half::f16;
 use half::slice::HalfFloatSliceExt;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use range::{Span, best_range, none};
 use rayon::prelude::*;
 
 /// Numbers of a texel: three coefficients, and the mean transmission, which is 0 off the leaf and nowhere on it.
 const CHANNELS: usize = 4;
-/// Bins in which the best range of 8 bits is looked for.
-const BINS: usize = 1024;
-/// Shares of the texels that a range may leave out at either end.
-const CUTS: [f64; 7] = [0.0, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3];
 const REPORT: &str = "report it: a fault of foliar";
 
 type Texel = [f32; CHANNELS];
@@ -65,10 +64,10 @@ pub(crate) fn exr(raster: &FloatRaster, filled: &[Texel], half: bool) -> Result<
 }
 
 /// PNG bytes of a map in 8 bits.
-pub(crate) fn png(stored: &Stored, width: u32, height: u32) -> Result<Vec<u8>, CarrierError> {
+pub(crate) fn png(rgba: &[u8], width: u32, height: u32) -> Result<Vec<u8>, CarrierError> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&stored.rgba, width, height, ExtendedColorType::Rgba8)
+        .write_image(rgba, width, height, ExtendedColorType::Rgba8)
         .map_err(|e| CarrierError::input("PNG", "", e.to_string(), REPORT))?;
     Ok(bytes)
 }
@@ -142,17 +141,13 @@ pub(crate) fn stored(raster: &FloatRaster, filled: &[Texel]) -> Stored {
     let bins = bins.reduce(none, |a, b| std::array::from_fn(|c| a[c].iter().zip(&b[c]).map(|(a, b)| a + b).collect()));
     let ranges: [(f64, f64); 3] = std::array::from_fn(|c| best_range(&bins[c], spans.channels[c]));
     let greatest = if spans.mean > 0.0 { f64::from(spans.mean) } else { 1.0 };
-    let word = |v: f64| ((v * 255.0).clamp(0.0, 255.0) + 0.5) as u8;
-    let part = |c: usize, v: f32| {
-        let (low, high) = ranges[c];
-        word((f64::from(v) - low) / (high - low))
-    };
-    let texel = |t: &Texel| [part(0, t[0]), part(1, t[1]), part(2, t[2]), word(f64::from(t[3]) / greatest).max(1)];
+    let [scale, bias] = [|r: &(f64, f64)| r.1 - r.0, |r: &(f64, f64)| r.0].map(|f| [0, 1, 2].map(|c| f(&ranges[c])));
+    let link = MapLink { scale, bias, mean_scale: greatest, ..MapLink::default() };
     let mut rgba = vec![0u8; filled.len() * CHANNELS];
     let misses = rgba.par_chunks_mut(CHUNK * CHANNELS).zip(chunks()).map(|(rgba, (filled, own))| {
         let mut misses = Misses::default();
         for ((bytes, t), own) in rgba.chunks_exact_mut(CHANNELS).zip(filled).zip(own.chunks_exact(CHANNELS)) {
-            bytes.copy_from_slice(&texel(t));
+            bytes.copy_from_slice(&bytes_of(t, &link));
             if own[3] > 0.0 {
                 misses.add(bytes, t, &ranges);
             }
@@ -162,10 +157,20 @@ pub(crate) fn stored(raster: &FloatRaster, filled: &[Texel]) -> Stored {
     // Added in the order of the texels, whoever summed them.
     let misses: Vec<Misses> = misses.collect();
     let all = misses.iter().fold(Misses::default(), |a, b| a.and(b));
-    let [scale, bias] = [|r: &(f64, f64)| r.1 - r.0, |r: &(f64, f64)| r.0].map(|f| [0, 1, 2].map(|c| f(&ranges[c])));
     let rms_error = (all.squares / (3 * all.count).max(1) as f64).sqrt();
-    let link = MapLink { scale, bias, mean_scale: greatest, rms_error, max_error: all.worst, ..MapLink::default() };
-    Stored { rgba, link }
+    Stored { rgba, link: MapLink { rms_error, max_error: all.worst, ..link } }
+}
+
+/// A texel in 8 bits: alpha is 0 nowhere.
+fn bytes_of(texel: &[f32], link: &MapLink) -> [u8; CHANNELS] {
+    let word = |v: f64| ((v * 255.0).clamp(0.0, 255.0) + 0.5) as u8;
+    let part = |c: usize| word((f64::from(texel[c]) - link.bias[c]) / link.scale[c]);
+    [part(0), part(1), part(2), word(f64::from(texel[3]) / link.mean_scale).max(1)]
+}
+
+/// A map that [`from_png`] read, as it was stored.
+pub(crate) fn to_8_bits(raster: &FloatRaster, link: &MapLink) -> Vec<u8> {
+    raster.data.chunks_exact(CHANNELS).flat_map(|texel| bytes_of(texel, link)).collect()
 }
 
 /// Texels that one task looks at.
@@ -174,53 +179,6 @@ const CHUNK: usize = 1 << 15;
 /// Those of these texels that are leaf.
 fn leaf<'a>(filled: &'a [Texel], own: &'a [f32]) -> impl Iterator<Item = &'a Texel> {
     filled.iter().zip(own.chunks_exact(CHANNELS)).filter(|(_, own)| own[3] > 0.0).map(|(filled, _)| filled)
-}
-
-/// Counts of texels in each bin of each channel.
-type Bins = [Vec<u32>; 3];
-
-fn none() -> Bins {
-    std::array::from_fn(|_| vec![0; BINS])
-}
-
-/// Least and greatest number of each channel, and the greatest mean.
-#[derive(Clone, Copy)]
-struct Span {
-    channels: [(f32, f32); 3],
-    mean: f32,
-}
-
-impl Default for Span {
-    fn default() -> Span {
-        Span { channels: [(f32::INFINITY, f32::NEG_INFINITY); 3], mean: 0.0 }
-    }
-}
-
-impl Span {
-    fn of<'a>(texels: impl Iterator<Item = &'a Texel>) -> Span {
-        texels.fold(Span::default(), |span, t| span.and(Span { channels: [0, 1, 2].map(|c| (t[c], t[c])), mean: t[3] }))
-    }
-
-    fn and(self, other: Span) -> Span {
-        let wider = |c: usize| {
-            let ((a, b), (c, d)) = (self.channels[c], other.channels[c]);
-            (a.min(c), b.max(d))
-        };
-        Span { channels: [0, 1, 2].map(wider), mean: self.mean.max(other.mean) }
-    }
-
-    fn bins<'a>(&self, texels: impl Iterator<Item = &'a Texel>) -> Bins {
-        let mut bins = none();
-        let scales = self.channels.map(|(least, most)| BINS as f64 / (f64::from(most) - f64::from(least)));
-        for texel in texels {
-            for (c, bins) in bins.iter_mut().enumerate() {
-                // No number where there is one value alone: the first bin.
-                let bin = (f64::from(texel[c]) - f64::from(self.channels[c].0)) * scales[c];
-                bins[(bin as usize).min(BINS - 1)] += 1;
-            }
-        }
-        bins
-    }
 }
 
 /// What 8 bits cost.
@@ -249,48 +207,6 @@ impl Misses {
     }
 }
 
-/// Least and greatest number of a channel that 8 bits span: what lies beyond is cut where that costs less than coarser
-/// steps for all.
-fn best_range(bins: &[u32], (least, most): (f32, f32)) -> (f64, f64) {
-    let (least, most) = (f64::from(least), f64::from(most));
-    if least >= most {
-        // One number, or none: any step holds it.
-        let only = if least.is_finite() { least } else { 0.0 };
-        return (only, only + 1.0);
-    }
-    let width = (most - least) / BINS as f64;
-    let total = bins.iter().map(|count| f64::from(*count)).sum::<f64>();
-    // Bins that must be left out at an end before more than a share of the texels is.
-    let edge = |cut: f64, bin: &dyn Fn(usize) -> usize| {
-        let mut seen = 0.0;
-        let first = (0..BINS).find(|at| {
-            seen += f64::from(bins[bin(*at)]);
-            seen > cut * total
-        });
-        bin(first.unwrap_or(0))
-    };
-    let lows: Vec<usize> = CUTS.iter().map(|cut| edge(*cut, &|at| at)).collect();
-    let highs: Vec<usize> = CUTS.iter().map(|cut| edge(*cut, &|at| BINS - 1 - at)).collect();
-    let mut best = (f64::MAX, least, most);
-    for low in &lows {
-        for high in highs.iter().filter(|high| *high >= low) {
-            let (a, b) = (least + width * *low as f64, least + width * (*high + 1) as f64);
-            let step = (b - a) / 255.0;
-            let beyond = |bin: usize| {
-                let center = least + width * (bin as f64 + 0.5);
-                (a - center).max(center - b).max(0.0)
-            };
-            let outside = (0..*low).chain(*high + 1..BINS);
-            let cut: f64 = outside.map(|bin| f64::from(bins[bin]) * beyond(bin) * beyond(bin)).sum();
-            let cost = total * step * step / 12.0 + cut;
-            if cost < best.0 {
-                best = (cost, a, b);
-            }
-        }
-    }
-    (best.1, best.2)
-}
-
 /// The map that a PNG of 8 bits stands for, off the leaf too: what is left where no EXR lies beside the file.
 pub(crate) fn from_png(rgba: &[u8], width: u32, height: u32, link: &MapLink) -> FloatRaster {
     let texel = |t: &[u8]| {
@@ -304,6 +220,16 @@ pub(crate) fn from_png(rgba: &[u8], width: u32, height: u32, link: &MapLink) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What 8 bits stand for is stored in the same 8 bits again, whatever the range.
+    #[test]
+    fn eight_bits_come_back_as_they_were() {
+        let rgba: Vec<u8> = (0..4 * 256).map(|i| if i % 4 == 3 { (i / 4).max(1) } else { i / 4 } as u8).collect();
+        for (scale, bias) in [(1.0, 0.0), (0.3, -0.02), (1e-6, 3e-7), (0.01, -0.4), (1e3, -5.0)] {
+            let link = MapLink { scale: [scale; 3], bias: [bias, -bias, 0.0], mean_scale: scale, ..MapLink::default() };
+            assert_eq!(to_8_bits(&from_png(&rgba, 256, 1, &link), &link), rgba, "{scale} {bias}");
+        }
+    }
 
     /// A disk of leaf in a square of nothing.
     fn disk(size: u32) -> FloatRaster {

@@ -17,6 +17,8 @@ const WIDEST: usize = 420;
 const TINT: Vec3 = Vec3::new(0.42, 1.0, 0.009);
 /// Share of the leaf that may be brighter than what is drawn as full light.
 const BRIGHTEST: f64 = 0.98;
+/// Pictures in a row of a sheet: two rows are a side.
+const COLUMNS: usize = 5;
 /// Behind the leaf: a dark room.
 const ROOM: f32 = 0.012;
 
@@ -37,23 +39,37 @@ struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
-    /// The front's maps, or the back's where there are no others.
-    fn of(layer: &'a Layer) -> Result<Side<'a>, ViewError> {
+    /// The maps of each side that there is, of one leaf of a layer; "" is a layer that holds one leaf by itself.
+    fn all(layer: &'a Layer, leaf: &str) -> Result<Vec<(&'static str, Side<'a>)>, ViewError> {
+        let facts = match leaf {
+            "" => layer.record.facts.get("maps"),
+            _ => layer.record.facts.get(names::FACT_SHEETS).and_then(|sheets| sheets.get(leaf)?.get("maps")),
+        };
         let curve = |name: &str| {
-            let numbers = &layer.record.facts.get("maps").and_then(|maps| maps.get(name)?.get("curve"));
-            let at = |i: usize| numbers.and_then(|n| n.get(i)?.as_f64());
+            let at = |i: usize| facts.and_then(|maps| maps.get(name)?.get("curve")?.get(i)?.as_f64());
             at(0).zip(at(1)).map_or(Curve::STRAIGHT, |(offset, slope)| Curve { offset, slope })
         };
-        let found = |name: String| layer.rasters.get(&name).filter(|r| r.channels == 4).map(|r| (r, curve(&name)));
-        for side in [names::RASTER_TRANSLUCENCY_FRONT, names::RASTER_TRANSLUCENCY_BACK] {
-            let bands = [names::BAND_RED, "", names::BAND_BLUE].map(|band| found(format!("{side}{band}")));
+        let within = if leaf.is_empty() { String::new() } else { format!("{leaf}/") };
+        let found = |name: String| {
+            let raster = layer.rasters.get(&format!("{within}{name}")).filter(|raster| raster.channels == 4);
+            raster.map(|raster| (raster, curve(&name)))
+        };
+        let side = |(shown, raster): (&'static str, &str)| {
+            let bands = [names::BAND_RED, "", names::BAND_BLUE].map(|band| found(format!("{raster}{band}")));
             match bands {
-                [Some(red), Some(green), Some(blue)] => return Ok(Side { bands: vec![red, green, blue] }),
-                [_, Some(one), _] => return Ok(Side { bands: vec![one] }),
-                _ => {}
+                [Some(red), Some(green), Some(blue)] => Some((shown, Side { bands: vec![red, green, blue] })),
+                [_, Some(one), _] => Some((shown, Side { bands: vec![one] })),
+                _ => None,
             }
-        }
-        Err(ViewError::NoLeaf(layer.record.room.clone()))
+        };
+        let both = [("front", names::RASTER_TRANSLUCENCY_FRONT), ("back", names::RASTER_TRANSLUCENCY_BACK)];
+        let sides: Vec<_> = both.into_iter().filter_map(side).collect();
+        if sides.is_empty() { Err(ViewError::NoLeaf(layer.record.room.clone())) } else { Ok(sides) }
+    }
+
+    /// The first of them.
+    fn first(layer: &'a Layer, leaf: &str) -> Result<Side<'a>, ViewError> {
+        Side::all(layer, leaf).map(|mut sides| sides.swap_remove(0).1)
     }
 
     /// Texels that make one pixel, each way.
@@ -147,40 +163,53 @@ fn toward(from_behind_deg: f64, around_deg: f64) -> DVec3 {
     DVec3::new(libm::sin(tilt) * libm::cos(around), libm::sin(tilt) * libm::sin(around), libm::cos(tilt))
 }
 
-/// A leaf lit from behind at several angles, its three coefficients and its answer to even light.
+/// Leaves that a layer holds maps of, by name; "" where it holds one by itself.
+pub fn leaf_names(layer: &Layer) -> Vec<String> {
+    let set = |name: &String| name.rsplit_once('/').map_or_else(String::new, |(set, _)| set.to_owned());
+    let mut names: Vec<String> = layer.rasters.keys().map(set).collect();
+    names.dedup();
+    names
+}
+
+/// Each side of a leaf lit from behind at several angles, its three coefficients and its answer to even light.
 ///
 /// # Errors
-/// [`ViewError::NoLeaf`] for a layer without maps of light through a leaf.
-pub fn leaf_sheet(layer: &Layer, title: &str) -> Result<RgbaImage, ViewError> {
-    let side = Side::of(layer)?;
-    let exposure = side.exposure();
-    let mut panels: Vec<Panel> = LIGHTS
-        .iter()
-        .map(|(name, tilt, around)| Panel::new(*name, side.lit(toward(*tilt, *around), exposure)))
-        .collect();
-    let along = ["right", "up and left", "down and left"];
-    for (i, along) in along.into_iter().enumerate() {
-        let name = format!("coefficient {}", i + 1);
-        let picture = side.channel(&name, &format!("light from behind, {along}"), |c| f64::from(c[i]), true);
-        panels.push(Panel::new(name, picture));
+/// [`ViewError::NoLeaf`] for a layer without maps of light through this leaf.
+pub fn leaf_sheet(layer: &Layer, leaf: &str, title: &str) -> Result<RgbaImage, ViewError> {
+    let sides = Side::all(layer, leaf)?;
+    // One exposure for both: which side passes more is to be seen.
+    let exposure = sides[0].1.exposure();
+    let mut panels = Vec::new();
+    for (shown, side) in &sides {
+        for (name, tilt, around) in LIGHTS {
+            panels.push(Panel::new(format!("{shown}, light {name}"), side.lit(toward(tilt, around), exposure)));
+        }
+        for (i, along) in ["right", "up and left", "down and left"].into_iter().enumerate() {
+            let name = format!("coefficient {}", i + 1);
+            let picture = side.channel(&name, &format!("light from behind, {along}"), |c| f64::from(c[i]), true);
+            panels.push(Panel::new(format!("{shown}, {name}"), picture));
+        }
+        let doc = "share of the light that falls in from everywhere behind";
+        let picture = side.channel("mean transmission", doc, |c| f64::from(c[3]), false);
+        panels.push(Panel::new(format!("{shown}, mean transmission"), picture));
     }
-    let raster = side.bands[0].0;
+    let (raster, _) = sides[0].1.bands[0];
     let facts = format!(
         "{} x {} texels, {} of light; full light is {exposure:.3} of what falls in",
         raster.width,
         raster.height,
-        if side.bands.len() == 3 { "three bands" } else { "one band" }
+        if sides[0].1.bands.len() == 3 { "three bands" } else { "one band" }
     );
-    Ok(contact_sheet(&panels, &[title.into(), facts], 3))
+    Ok(contact_sheet(&panels, &[title.into(), facts], COLUMNS))
 }
 
-/// Two bakes of one leaf: straight and slanting light, and what differs.
+/// Two bakes of one leaf, each with the leaf's name in its layer and its own: straight and slanting light, and what differs.
 ///
 /// # Errors
 /// As [`leaf_sheet`]; [`ViewError::Sizes`] for maps of different size.
-pub fn leaf_comparison(leaves: [(&Layer, &str); 2]) -> Result<RgbaImage, ViewError> {
-    let [(a, a_name), (b, b_name)] = leaves;
-    let [before, after] = [Side::of(a)?, Side::of(b)?];
+pub fn leaf_comparison(leaves: [(&Layer, &str, &str); 2]) -> Result<RgbaImage, ViewError> {
+    let [(a, a_leaf, a_name), (b, b_leaf, b_name)] = leaves;
+    let [before, after] = [Side::first(a, a_leaf)?, Side::first(b, b_leaf)?];
     let exposure = before.exposure();
     let mut panels = Vec::new();
     for (name, tilt, around) in [LIGHTS[0], LIGHTS[1]] {

@@ -32,7 +32,7 @@ pub use animation::{apng_bytes, turntable};
 pub use difference::{Difference, difference};
 pub use error::ViewError;
 pub use frame::Standing;
-pub use leaf::{leaf_comparison, leaf_sheet};
+pub use leaf::{leaf_comparison, leaf_names, leaf_sheet};
 pub use params::{Background, Ground, Look, Normals, Scale, Shading, ViewParams};
 pub use render::{render, render_among};
 pub use sheet::{Panel, bake_sheet, channel_sheet, comparison, contact_sheet, light_sheet};

@@ -19,14 +19,14 @@ const SMALL: usize = 105;
 /// Draws both.
 pub fn draw() -> Result<()> {
     let whole = bake(SIZE, &json!({"bands": "rgb", "sides": "front"}))?;
-    save(SHEET, &png_bytes(&leaf_sheet(&whole, "a leaf made by rule, 80 mm, front seen, light from behind")?)?)?;
+    save(SHEET, &png_bytes(&leaf_sheet(&whole, "", "a leaf made by rule, 80 mm, light from behind")?)?)?;
     // Colors of one band: the reference takes its time.
     let given = json!({"sides": "front", "wavelength_nm": 550.0});
     let fast = bake(SMALL, &given)?;
     let maps = maps(leaf_by_rule(SMALL));
     let exact = Translucency.reference(&inputs_of(&maps), &fast.record.resolved)?;
     let exact = Layer { rasters: exact.rasters, ..fast.clone() };
-    save(REFERENCE, &png_bytes(&leaf_comparison([(&exact, "direct gather"), (&fast, "bank")])?)?)
+    save(REFERENCE, &png_bytes(&leaf_comparison([(&exact, "", "direct gather"), (&fast, "", "bank")])?)?)
 }
 
 fn bake(size: usize, given: &Value) -> Result<Layer> {

@@ -72,7 +72,10 @@ fn write_sheet(
     let half = layer.record.resolved.get("exr") != Some(&json!("float"));
     let encoded: Result<Vec<(&str, Encoded)>, CarrierError> = rasters
         .par_iter()
-        .map(|(name, raster)| Ok((*name, encode_map(raster, all || **name == shown, (!all).then_some(half))?)))
+        .map(|(name, raster)| match layer.in_8_bits.get(&format!("{sheet}/{name}")) {
+            Some(link) => Ok((*name, again(raster, link)?)),
+            None => Ok((*name, encode_map(raster, all || **name == shown, (!all).then_some(half))?)),
+        })
         .collect();
     let mut links = SheetLinks { materials, shown, ..SheetLinks::default() };
     let users = users(builder, &links.materials);
@@ -121,13 +124,21 @@ pub(crate) fn encode_map(raster: &FloatRaster, png: bool, half: Option<bool>) ->
     let (stored, exr) = rayon::join(
         || {
             let stored = coefficients::stored(&raster, &filled);
-            let bytes = png.then(|| coefficients::png(&stored, raster.width, raster.height)).transpose()?;
+            let bytes = png.then(|| coefficients::png(&stored.rgba, raster.width, raster.height)).transpose()?;
             Ok::<_, CarrierError>((stored.link, bytes))
         },
         || half.map(|_| coefficients::exr(&raster, &filled, halves)).transpose(),
     );
     let (link, png) = stored?;
     Ok(Encoded { link, png, exr: exr? })
+}
+
+/// A map that is there in 8 bits alone, in the same 8 bits: to fit them anew would lose a little at every bake. What an EXR
+/// held that is missing stays missing, and is said to be.
+fn again(raster: &FloatRaster, link: &MapLink) -> Result<Encoded, CarrierError> {
+    let rgba = coefficients::to_8_bits(raster, link);
+    let png = coefficients::png(&rgba, raster.width, raster.height)?;
+    Ok(Encoded { link: link.clone(), png: Some(png), exr: None })
 }
 
 /// Materials of the document that have one of these names.

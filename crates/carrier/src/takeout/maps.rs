@@ -25,6 +25,7 @@ impl MapReader<'_> {
         let mut found = self.exact(link)?;
         if found.is_none() {
             found = self.coarse(link)?;
+            layer.in_8_bits.extend(found.is_some().then(|| (name.to_owned(), link.clone())));
             if let (Some(_), Some(exr)) = (&found, &link.exr) {
                 let text = format!(
                     "{exr} is missing: its map was taken from the 8 bits in the file, which are off by {:.5}: put the \

@@ -7,6 +7,7 @@ mod crowns;
 mod foliage;
 mod hard;
 mod hierarchy;
+mod leaf;
 mod noise;
 mod odd;
 mod skeleton;
@@ -16,6 +17,7 @@ mod tubes;
 
 pub use crowns::{Quad, crowns, quads};
 pub use hard::{FUSED_TREES, HARD_TREES, HardTree, fused_tree, hard_tree, wood_for_speed};
+pub use leaf::{LEAF_WIDTH_MM, leaf_form};
 pub use odd::odd_plants;
 pub use tree::Recipe;
 

@@ -224,6 +224,16 @@ fn view(command: Command, fields: &Fields) -> Command {
                 .conflicts_with_all(["sheet", "channels"]),
         )
         .arg(
+            Arg::new("light-through")
+                .long("light-through")
+                .value_name("MATERIAL")
+                .num_args(0..=1)
+                .require_equals(true)
+                .default_missing_value("")
+                .conflicts_with_all(["sheet", "channels", "turntable"])
+                .help("Draws a leaf material by itself, both sides lit from behind, with its coefficient maps; with --against beside another bake of it"),
+        )
+        .arg(
             Arg::new("turntable")
                 .long("turntable")
                 .value_name("FRAMES")
@@ -236,7 +246,7 @@ fn view(command: Command, fields: &Fields) -> Command {
                 .long("sway")
                 .value_name("FRAMES")
                 .value_parser(value_parser!(u32).range(1..=720))
-                .conflicts_with_all(["against", "channels", "turntable"])
+                .conflicts_with_all(["against", "channels", "turntable", "light-through"])
                 .help("Draws an animated PNG: the plant in a storm, 24 pictures a second; with --sheet levels, weights, phases and six times"),
         );
     common(command, fields, Direct::Sections(&["view"]), Leaves::Files)

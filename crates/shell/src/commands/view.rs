@@ -42,6 +42,17 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         let mut loaded = load(&sources, &options, &job.input)?;
         let stands = neighbors::named(&mut loaded.settings)?.remove("view").unwrap_or_default();
         report.loaded(&loaded);
+        if let Some(leaf) = call.matches.get_one::<String>("light-through") {
+            if options.mode == Mode::DryRun {
+                return Ok(report.planned(&output, "a sheet of a leaf lit from behind"));
+            }
+            let beside = |other: &PathBuf| neighbors::load_beside(&sources, &options, other, "--against", report);
+            let other = call.matches.get_one::<PathBuf>("against");
+            let beside = other.map(beside).transpose()?;
+            let against = beside.as_ref().zip(other.map(PathBuf::as_path));
+            let bytes = view_leaf::of_tree(leaf, (&loaded, &job.input), against)?;
+            return Ok(Product::Files(vec![OutputFile { path: output.clone(), bytes }]));
+        }
         with_branches(&mut loaded, &job.input)?;
         let around = neighbors::standing(&sources, &options, &stands, report)?;
         console.log(&report.lap("read"));

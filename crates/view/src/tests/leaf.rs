@@ -1,6 +1,6 @@
 //! A leaf by itself: light from the side that its bumps lean to shows them, two equal bakes do not differ.
 
-use crate::{ViewError, leaf_comparison, leaf_sheet};
+use crate::{ViewError, leaf_comparison, leaf_names, leaf_sheet};
 use foliar_bake::{FloatRaster, Layer};
 use foliar_schema::{Record, names};
 use foliar_translucency::light::coefficients;
@@ -29,7 +29,7 @@ fn layer() -> Layer {
 
 /// Mean green of a place, 12 pixels and the title above the first picture.
 fn green(sheet: &RgbaImage, [column, row]: [u32; 2], x: u32) -> f64 {
-    let cell = (sheet.width() - 12) / 3;
+    let cell = (sheet.width() - 12) / 5;
     let height = 320 + 15 + 4 + 12;
     let top = 12 + 2 * 24;
     let (left, top) = (12 + column * cell + x, top + row * height + 100);
@@ -39,7 +39,7 @@ fn green(sheet: &RgbaImage, [column, row]: [u32; 2], x: u32) -> f64 {
 
 #[test]
 fn a_leaf_answers_to_the_side_that_the_light_is_on() {
-    let sheet = leaf_sheet(&layer(), "leaf").unwrap();
+    let sheet = leaf_sheet(&layer(), "", "leaf").unwrap();
     // Second and third picture: light from the right, from the left.
     let [right, left] = [1, 2].map(|column| [green(&sheet, [column, 0], 60), green(&sheet, [column, 0], 240)]);
     assert!(right[1] > 2.0 * right[0] && left[0] > 2.0 * left[1], "{right:?} {left:?}");
@@ -50,8 +50,35 @@ fn a_leaf_answers_to_the_side_that_the_light_is_on() {
 #[test]
 fn equal_bakes_do_not_differ() {
     let layer = layer();
-    let sheet = leaf_comparison([(&layer, "a"), (&layer, "b")]).unwrap();
+    let sheet = leaf_comparison([(&layer, "", "a"), (&layer, "", "b")]).unwrap();
     assert!(sheet.width() > 900);
     let other = Layer::default();
-    assert!(matches!(leaf_sheet(&other, "x"), Err(ViewError::NoLeaf(_))));
+    assert!(matches!(leaf_sheet(&other, "", "x"), Err(ViewError::NoLeaf(_))));
+}
+
+/// A leaf among others of a master, both sides: names, rows, and the curve of its own record.
+#[test]
+fn both_sides_of_a_leaf_of_a_master_are_drawn() {
+    let alone = layer();
+    let raster = alone.rasters[names::RASTER_TRANSLUCENCY_BACK].clone();
+    let mut master = Layer { record: alone.record.clone(), ..Layer::default() };
+    for side in [names::RASTER_TRANSLUCENCY_FRONT, names::RASTER_TRANSLUCENCY_BACK] {
+        master.rasters.insert(format!("oak/{side}"), raster.clone());
+    }
+    assert_eq!((leaf_names(&alone), leaf_names(&master)), (vec![String::new()], vec!["oak".to_owned()]));
+    let [one, two] = [leaf_sheet(&alone, "", "x").unwrap(), leaf_sheet(&master, "oak", "x").unwrap()];
+    assert!(two.width() == one.width() && two.height() > one.height() + 2 * 320);
+    assert!(matches!(leaf_sheet(&master, "", "x"), Err(ViewError::NoLeaf(_))));
+    // Twice the slope of the curve: brighter by as much; exposure divides it out, so two leaves are held together.
+    let slope = |slope: f64| {
+        let mut layer = master.clone();
+        let curve = serde_json::json!({"oak": {"maps": {names::RASTER_TRANSLUCENCY_FRONT: {"curve": [0.0, slope]}}}});
+        layer.record.facts.insert(names::FACT_SHEETS.into(), curve);
+        layer
+    };
+    let [plain, bent] = [slope(1.0), slope(0.5)];
+    let held = leaf_comparison([(&plain, "oak", "a"), (&bent, "oak", "b")]).unwrap();
+    let cell = (held.width() - 12) / 3;
+    let [a, b] = [0, 1].map(|column| held.get_pixel(12 + column * cell + 60, 12 + 24 + 100).0[1]);
+    assert!(a > b, "{a} {b}");
 }
