@@ -29,6 +29,7 @@ mod neighbors;
 mod outsiders;
 mod pack;
 mod plants;
+mod schemas;
 mod streams;
 mod surface;
 mod translucency;

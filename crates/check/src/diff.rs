@@ -4,6 +4,7 @@ use foliar_bake::{Array, Layer};
 use foliar_numerics::ErrorStats;
 use foliar_plant::Place;
 use foliar_schema::{Channel, Column, Role, channel, column, names, raster};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +21,8 @@ const MAP_STEP: f64 = 1.0 / 255.0;
 const DIRECTION_STEP_DEG: f64 = 1.0;
 
 /// One place where two bakes differ.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Spot {
     /// `mesh 0 primitive 1 vertex 17`, or `foliarLeaf row 3`.
     pub place: String,
@@ -33,7 +35,8 @@ pub struct Spot {
 }
 
 /// How one channel or column differs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Difference {
     /// Room that wrote it.
     pub room: String,

@@ -9,6 +9,7 @@ use foliar_carrier::edit::{Stored, attribute, attribute_names, bytes_per_vertex}
 use foliar_numerics::ErrorStats;
 use foliar_schema::{Engine, channel, names};
 use glam::DVec3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// How a channel's value is read back from the attribute that carries it.
@@ -29,8 +30,8 @@ pub(crate) enum Decode {
 }
 
 /// One channel in the packed file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct PackedAttribute {
     /// Channel of the master.
     pub channel: String,
@@ -51,8 +52,8 @@ pub struct PackedAttribute {
 }
 
 /// What a packed file costs and what it lost.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct PackReport {
     /// What it was packed for.
     pub engine: Engine,

@@ -64,7 +64,7 @@ pub fn bake_one(baking: &Baking, job: &Job, report: &mut Report) -> Result<Produ
     }
     let mut files = surface.map_or(Ok(Vec::new()), |path| enclose(baking, &loaded, &rows, path, report))?;
     if let (None, Some(path)) = (&job.output, surface) {
-        report.set("output", path.display().to_string());
+        report.told.output = Some(path.display().to_string());
     }
     if let Some(output) = &job.output {
         let around = (&neighbors, &sheets);

@@ -2,15 +2,16 @@
 //! A failed asset is shown like a finding of severity error.
 
 use crate::options::Format;
+use crate::said::AssetReport;
 use foliar_schema::{CODES, Finding, Severity};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// Code under which a failure is shown.
 const FAILED: &str = "FAILED";
 
 /// The findings of all assets in this format; nothing for formats that tell them as they go. JUnit knows no levels: what
 /// is as serious as `failure` fails.
-pub fn text(format: Format, reports: &[Map<String, Value>], failure: Severity) -> Option<String> {
+pub fn text(format: Format, reports: &[AssetReport], failure: Severity) -> Option<String> {
     match format {
         Format::Human | Format::Json => None,
         Format::Sarif => Some(format!("{:#}", sarif(reports))),
@@ -19,20 +20,14 @@ pub fn text(format: Format, reports: &[Map<String, Value>], failure: Severity) -
     }
 }
 
-/// Name of the asset of a report.
-fn asset(report: &Map<String, Value>) -> &str {
-    report.get("asset").and_then(Value::as_str).unwrap_or_default()
-}
-
-fn findings(report: &Map<String, Value>) -> Vec<Finding> {
-    let listed = report.get("findings").cloned().unwrap_or_default();
-    let mut findings: Vec<Finding> = serde_json::from_value(listed).unwrap_or_default();
-    findings.extend(report.get("error").and_then(Value::as_str).map(|message| Finding {
+fn findings(report: &AssetReport) -> Vec<Finding> {
+    let mut findings = report.findings.clone();
+    findings.extend(report.error.as_ref().map(|message| Finding {
         code: FAILED.into(),
         severity: Severity::Error,
-        message: message.into(),
+        message: message.clone(),
         place: None,
-        file: Some(asset(report).into()),
+        file: Some(report.asset.clone()),
     }));
     findings
 }
@@ -50,7 +45,7 @@ fn severity(severity: Severity) -> &'static str {
     }
 }
 
-fn sarif(reports: &[Map<String, Value>]) -> Value {
+fn sarif(reports: &[AssetReport]) -> Value {
     let failed = rule(FAILED, "The file could not be worked on: the message says why.", Severity::Error);
     let rules = CODES.iter().map(|info| rule(info.code, info.doc, info.severity)).chain([failed]);
     let result = |finding: Finding| {
@@ -109,13 +104,13 @@ fn uri(path: &str) -> String {
 }
 
 /// One suite per asset.
-fn junit(reports: &[Map<String, Value>], failure: Severity) -> String {
+fn junit(reports: &[AssetReport], failure: Severity) -> String {
     let suites: String = reports.iter().map(|report| suite(report, failure)).collect();
     format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"foliar\">\n{suites}</testsuites>")
 }
 
-fn suite(report: &Map<String, Value>, failure: Severity) -> String {
-    let name = xml(asset(report));
+fn suite(report: &AssetReport, failure: Severity) -> String {
+    let name = xml(&report.asset);
     let all = findings(report);
     let failed = all.iter().filter(|finding| finding.severity >= failure).count();
     let case = |finding: &Finding| {
@@ -158,10 +153,10 @@ mod tests {
     use super::*;
     use foliar_schema::code;
 
-    fn report() -> Map<String, Value> {
+    fn report() -> AssetReport {
         let finding = Finding::new(&code::IMPORT_MTL, "a <b> & \"c\",\n50 %").at("line 7").in_file("a,b.obj");
-        let report = json!({"asset": "a,b.obj", "findings": [finding], "error": "broken"});
-        report.as_object().unwrap().clone()
+        let error = Some("broken".into());
+        AssetReport { asset: "a,b.obj".into(), findings: vec![finding], error, ..AssetReport::default() }
     }
 
     #[test]
@@ -194,7 +189,7 @@ mod tests {
         // The failure of the file itself is an error; the finding is a warning.
         let text = junit(&[report()], Severity::Error);
         assert!(text.contains("failures=\"1\"") && text.contains("<system-out>line 7: a"), "{text}");
-        let clean = junit(&[json!({"asset": "a.obj", "findings": []}).as_object().unwrap().clone()], Severity::Error);
+        let clean = junit(&[AssetReport { asset: "a.obj".into(), ..AssetReport::default() }], Severity::Error);
         assert!(clean.contains("tests=\"1\" failures=\"0\"") && clean.contains("name=\"no faults\""), "{clean}");
     }
 

@@ -22,6 +22,7 @@ mod record;
 mod report;
 mod rooms;
 mod runner;
+mod said;
 mod start;
 mod telling;
 

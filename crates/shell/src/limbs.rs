@@ -42,7 +42,7 @@ pub fn plan<'a>(
     let mut told = branches::report(&found, &loaded.plant);
     told["from"] = limbs.source.into();
     told["method"] = limbs.layer.record.resolved["method"].clone();
-    report.set(names::ROOM_BRANCHES, told);
+    report.told.branches = Some(told);
     let plant = std::mem::take(&mut loaded.plant).with_branches(found.branches);
     loaded.plant = plant.map_err(|e| Failure::Input(e.to_string()))?;
     baking.console.log(&report.lap("branches"));
@@ -238,7 +238,7 @@ mod tests {
         assert!(matches!(product, Product::Files(files) if files.len() == 1));
         let heard = twigs.0.lock().unwrap().join("; ");
         assert_eq!(heard, "branches are not known yet; 2 branches, 2 levels; got 2");
-        let plan = &report.json["plan"];
+        let plan = json!(report.told.plan);
         assert_eq!((&plan[0]["baker"], &plan[0]["because"]), (&json!("branches"), &json!("twigs needs them")));
     }
 }

@@ -5,6 +5,7 @@ use crate::options::{Options, is_dash};
 use foliar_bake::Layer;
 use foliar_carrier::{Document, OutputFile};
 use foliar_schema::names;
+use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -158,6 +159,14 @@ pub fn encode_layer(layer: &Layer, output: &Path) -> Result<Vec<OutputFile>, Fai
 pub fn write_text(path: &Path, text: String) -> Result<(), Failure> {
     foliar_carrier::write_files(&[OutputFile { path: path.to_path_buf(), bytes: text.into_bytes() }])?;
     Ok(())
+}
+
+/// What is told, as JSON.
+///
+/// # Errors
+/// [`Failure::Fault`] for what is no JSON.
+pub fn value(told: &impl Serialize) -> Result<Value, Failure> {
+    serde_json::to_value(told).map_err(|e| Failure::Fault(format!("the report cannot be written: {e}")))
 }
 
 /// Pretty JSON with a newline at its end.

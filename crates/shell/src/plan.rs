@@ -3,9 +3,10 @@
 use crate::Failure;
 use crate::config::Settings;
 use crate::limbs::Limbs;
+use crate::said::Bakes;
 use foliar_bake::{Baker, Facts, Requirement, resolve_params};
 use foliar_schema::{LATER_ROOMS, Scene, names};
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 /// How fast rooms write, roughly: two cores write about this many bytes of layer a second. An
 /// estimate, for information.
@@ -50,16 +51,17 @@ impl Row<'_> {
         Value::Object(self.params.iter().map(shown).collect())
     }
 
-    /// The row as JSON.
-    pub fn to_json(&self) -> Value {
-        json!({
-            "baker": self.baker.room(),
-            "needed": self.needed,
-            "because": self.because,
-            "parameters": self.shown_params(),
-            "bytes": self.bytes,
-            "secondsEstimated": self.seconds(),
-        })
+    /// The row for machines.
+    pub fn told(&self) -> Bakes {
+        Bakes {
+            baker: self.baker.room().into(),
+            needed: self.needed,
+            because: self.because.clone(),
+            parameters: self.shown_params(),
+            bytes: self.bytes,
+            seconds_estimated: Some(self.seconds()),
+            from: None,
+        }
     }
 }
 

@@ -4,18 +4,21 @@ use crate::limbs::Limbs;
 use crate::load::Loaded;
 use crate::plan::{self, Row};
 use crate::rooms::Room;
-use crate::runner::Product;
+use crate::runner::{Product, Status};
+use crate::said::{AssetReport, Baked, Bakes, PartTold, Reason, RoomTold, Step, Writes};
+use crate::{Failure, outputs};
 use foliar_carrier::{Asset, Document, SourceKind};
 use foliar_schema::{Finding, names};
 use foliar_structure::Evidence;
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// A finished report.
 pub struct Told {
-    /// The whole object.
-    pub json: Map<String, Value>,
+    /// Everything.
+    pub report: AssetReport,
     /// What people read in place of a result line.
     pub text: Option<String>,
     /// What machines read in place of it.
@@ -25,14 +28,14 @@ pub struct Told {
 impl Told {
     /// Whether the input failed.
     pub fn failed(&self) -> bool {
-        self.json.contains_key("error")
+        self.report.status == Status::Failed
     }
 }
 
 /// The report of one asset.
 pub struct Report {
-    /// Members of the JSON object.
-    pub json: Map<String, Value>,
+    /// What is known so far, but for findings and seconds.
+    pub told: AssetReport,
     /// Everything noticed.
     pub findings: Vec<Finding>,
     /// Every file that was really read.
@@ -42,10 +45,9 @@ pub struct Report {
     /// What people read in place of a result line.
     pub text: Option<String>,
     /// What machines read in place of it.
-    pub answer: Option<Value>,
+    answer: Option<Value>,
     /// The findings stand in `text` already: nobody else says them.
     pub tells_findings: bool,
-    laps: Map<String, Value>,
     start: Instant,
     lap: Instant,
 }
@@ -53,41 +55,43 @@ pub struct Report {
 impl Report {
     /// An empty report of an input.
     pub fn new(input: &Path) -> Self {
-        let json = Map::from_iter([("asset".to_owned(), json!(input.display().to_string()))]);
         let now = Instant::now();
         Report {
-            json,
+            told: AssetReport { asset: input.display().to_string(), ..AssetReport::default() },
             findings: Vec::new(),
             read: Vec::new(),
             written: Vec::new(),
             text: None,
             answer: None,
             tells_findings: false,
-            laps: Map::new(),
             start: now,
             lap: now,
         }
     }
 
-    /// Sets a member.
-    pub fn set(&mut self, name: &str, value: impl Into<Value>) {
-        self.json.insert(name.into(), value.into());
+    /// Answers: to people in words, to machines with an object.
+    ///
+    /// # Errors
+    /// [`Failure::Fault`] for what is no JSON.
+    pub fn answer(&mut self, text: impl Into<String>, answer: &impl Serialize) -> Result<Product, Failure> {
+        self.text = Some(text.into());
+        self.answer = Some(outputs::value(answer)?);
+        Ok(Product::Answer)
     }
 
     /// Notes the seconds since the last lap; gives them in words.
     pub fn lap(&mut self, stage: &str) -> String {
         let seconds = self.lap.elapsed().as_secs_f64();
         self.lap = Instant::now();
-        self.laps.insert(stage.into(), json!(seconds));
+        self.told.stages.insert(stage.into(), json!(seconds));
         format!("{stage}: {seconds:.3} s")
     }
 
     /// Takes findings; those that name no file are about the asset.
     pub fn find(&mut self, findings: impl IntoIterator<Item = Finding>) {
-        let asset = self.json.get("asset").and_then(Value::as_str);
-        let asset = asset.map(|name| if name == "-" { "standard input" } else { name }.to_owned());
+        let asset = if self.told.asset == "-" { "standard input" } else { &self.told.asset };
         self.findings.extend(findings.into_iter().map(|mut finding| {
-            finding.file = finding.file.or_else(|| asset.clone());
+            finding.file = finding.file.or_else(|| Some(asset.to_owned()));
             finding
         }));
     }
@@ -96,12 +100,13 @@ impl Report {
     pub fn asset(&mut self, asset: &Asset) {
         self.read.extend_from_slice(&asset.files);
         self.find(asset.findings.iter().cloned());
-        self.set("base", asset.base_hash.clone());
+        self.told.base = Some(asset.base_hash.clone());
     }
 
     /// What would be written, in place of writing it.
     pub fn planned(&mut self, output: &Path, what: &str) -> Product {
-        self.set("plan", json!([{ "writes": output.display().to_string(), "what": what }]));
+        let writes = output.display().to_string();
+        self.told.plan = Some(vec![Step::Writes(Writes { writes, what: what.into() })]);
         self.text = Some(format!("would write {}: {what}", output.display()));
         Product::Planned
     }
@@ -115,12 +120,11 @@ impl Report {
             SourceKind::Gltf => "gltf",
             SourceKind::Glb => "glb",
         };
-        self.set("source", source);
-        self.set("base", loaded.base_hash.clone());
-        self.set("parts", parts(loaded));
-        self.set("leaves", loaded.plant.leaves().len());
-        let names: Vec<String> = loaded.files.iter().map(|file| file.display().to_string()).collect();
-        self.set("files", names);
+        self.told.source = Some(source);
+        self.told.base = Some(loaded.base_hash.clone());
+        self.told.parts = Some(parts(loaded));
+        self.told.leaves = Some(loaded.plant.leaves().len());
+        self.told.files = Some(loaded.files.iter().map(|file| file.display().to_string()).collect());
     }
 
     /// The plan.
@@ -128,16 +132,17 @@ impl Report {
         let step = limbs.map(|limbs| {
             let plan::Branches { because, bytes } = plan::branches(rows, limbs);
             let record = &limbs.layer.record;
-            json!({
-                "baker": record.room,
-                "needed": true,
-                "because": because,
-                "parameters": record.resolved,
-                "bytes": bytes,
-                "from": limbs.source,
-            })
+            Bakes {
+                baker: record.room.clone(),
+                needed: true,
+                because,
+                parameters: record.resolved.clone().into(),
+                bytes: Some(bytes),
+                seconds_estimated: None,
+                from: Some(limbs.source),
+            }
         });
-        self.set("plan", step.into_iter().chain(rows.iter().map(Row::to_json)).collect::<Vec<_>>());
+        self.told.plan = Some(step.into_iter().chain(rows.iter().map(Row::told)).map(Step::Bakes).collect());
     }
 
     /// What the rooms made, with bytes predicted and bytes in the file.
@@ -145,54 +150,45 @@ impl Report {
         let needed = rows.iter().filter(|row| row.needed);
         let one = |(row, room): (&Row, &Room)| {
             let record = &room.layer.record;
-            json!({
-                "room": record.room,
-                "version": record.version,
-                "bytesPredicted": row.bytes,
-                "bytesWritten": written_bytes(document, &record.room),
-                "secondsEstimated": row.seconds(),
-                "seconds": room.seconds,
-                "cached": room.cached,
-                "given": record.given,
-                "resolved": record.resolved,
-                "facts": record.facts,
-                "errors": record.errors,
-                "writes": record.writes,
-            })
+            RoomTold::Baked(Box::new(Baked {
+                room: record.room.clone(),
+                version: record.version,
+                bytes_predicted: row.bytes,
+                bytes_written: written_bytes(document, &record.room),
+                seconds_estimated: row.seconds(),
+                seconds: room.seconds,
+                cached: room.cached,
+                given: record.given.clone(),
+                resolved: record.resolved.clone(),
+                facts: record.facts.clone(),
+                errors: record.errors.clone(),
+                writes: record.writes.clone(),
+            }))
         };
-        self.set("rooms", needed.zip(rooms).map(one).collect::<Vec<_>>());
+        self.told.rooms = Some(needed.zip(rooms).map(one).collect());
     }
 
     /// The whole object.
     pub fn finish(mut self) -> Told {
-        self.set("findings", json!(self.findings));
-        let laps = std::mem::take(&mut self.laps);
-        self.set("stages", laps);
-        let seconds = self.start.elapsed().as_secs_f64();
-        self.set("seconds", seconds);
-        Told { json: self.json, text: self.text, answer: self.answer }
+        self.told.findings = self.findings;
+        self.told.seconds = self.start.elapsed().as_secs_f64();
+        Told { report: self.told, text: self.text, answer: self.answer }
     }
 }
 
 /// Parts with their roles; those of a fresh analysis with their evidence in numbers.
-fn parts(loaded: &Loaded) -> Vec<Value> {
+fn parts(loaded: &Loaded) -> Vec<PartTold> {
     let one = |(index, part): (usize, &foliar_plant::Part)| {
-        let mut object = json!({
-            "name": part.name(),
-            "mesh": part.place.mesh,
-            "primitive": part.place.primitive,
-            "role": loaded.plant.role(index).name(),
-            "vertices": part.positions.len(),
-            "triangles": part.triangles.len(),
-        });
-        if let Some(evidence) = loaded.evidence.get(index) {
-            object["confidence"] = json!(evidence.confidence);
-            object["pieces"] = json!(evidence.pieces);
-            object["crownVolume"] = json!(evidence.crown_volume);
-            let reason = |e: &Evidence| json!({"role": e.role.name(), "weight": e.weight, "reason": e.reason});
-            object["evidence"] = evidence.evidence.iter().map(reason).collect();
+        let bare = PartTold::of(part, Some(loaded.plant.role(index)));
+        let Some(found) = loaded.evidence.get(index) else { return bare };
+        let reason = |e: &Evidence| Reason { role: e.role, weight: e.weight, reason: e.reason.clone() };
+        PartTold {
+            confidence: Some(found.confidence),
+            pieces: Some(found.pieces),
+            crown_volume: Some(found.crown_volume),
+            evidence: Some(found.evidence.iter().map(reason).collect()),
+            ..bare
         }
-        object
     };
     loaded.plant.parts().iter().enumerate().map(one).collect()
 }

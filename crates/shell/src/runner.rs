@@ -6,10 +6,13 @@ use crate::console::Console;
 use crate::options::{Mode, Options, is_dash};
 use crate::outputs::{self, Job};
 use crate::report::{Report, Told};
+use crate::said::{AssetReport, Reports};
 use crate::{Failure, finding_formats, telling};
 use foliar_carrier::{Outcome, OutputFile};
 use foliar_schema::Severity;
-use serde_json::{Map, Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::json;
 use std::path::PathBuf;
 
 /// What a command made of one input.
@@ -23,7 +26,8 @@ pub enum Product {
 }
 
 /// What became of an input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Status {
     /// New bytes are in place.
     Written,
@@ -35,10 +39,13 @@ pub enum Status {
     Planned,
     /// What was asked was answered.
     Answered,
+    /// It failed, or has not come to its end yet.
+    #[default]
+    Failed,
 }
 
 impl Status {
-    /// The word in JSON lines.
+    /// The word in what people read.
     pub fn word(self) -> &'static str {
         match self {
             Status::Written => "written",
@@ -46,6 +53,7 @@ impl Status {
             Status::Outdated => "outdated",
             Status::Planned => "planned",
             Status::Answered => "answered",
+            Status::Failed => "failed",
         }
     }
 }
@@ -71,7 +79,7 @@ pub fn run(options: &Options, console: &Console, jobs: &[Job], work: Work) -> Re
             done.failures.last().filter(|_| told.failed()).into_iter().for_each(|failure| console.error(failure));
         }
         let stop = told.failed() && !options.keep_going;
-        done.reports.push(told.json.clone());
+        done.reports.push(told.report.clone());
         last = Some(told);
         if stop {
             break;
@@ -93,7 +101,7 @@ pub fn run(options: &Options, console: &Console, jobs: &[Job], work: Work) -> Re
 /// What became of a run.
 #[derive(Default)]
 struct Done {
-    reports: Vec<Map<String, Value>>,
+    reports: Vec<AssetReport>,
     read: Vec<(PathBuf, Vec<PathBuf>)>,
     written: Vec<PathBuf>,
     failures: Vec<Failure>,
@@ -103,25 +111,24 @@ struct Done {
 /// Works on one input.
 fn one(options: &Options, console: &Console, job: &Job, work: Work, done: &mut Done) -> Told {
     let mut report = Report::new(&job.input);
-    report.set("output", job.output.as_ref().map(|path| path.display().to_string()));
+    report.told.output = job.output.as_ref().map(|path| path.display().to_string());
     let result = work(job, &mut report).and_then(|product| settle(options, console, product, &mut report));
     let result = result.map_err(|e| e.in_file(&job.input.display().to_string()));
-    report.set("status", result.as_ref().map_or("failed", |status| status.word()));
+    report.told.status = result.as_ref().map_or(Status::Failed, |status| *status);
     if let Some(target) = rule_target(options, job) {
         done.read.push((target, std::mem::take(&mut report.read)));
     }
     match result {
         Ok(status) => {
-            let names: Vec<String> = report.written.iter().map(|path| path.display().to_string()).collect();
-            report.set("outputs", names);
+            report.told.outputs = Some(report.written.iter().map(|path| path.display().to_string()).collect());
             done.written.append(&mut report.written);
             if let (Status::Outdated, Some(output)) = (status, job.output.as_ref().or(options.surface.as_ref())) {
                 done.outdated.push(output.display().to_string());
             }
         }
         Err(failure) => {
-            report.set("exit", failure.status());
-            report.set("error", failure.to_string());
+            report.told.exit = Some(failure.status());
+            report.told.error = Some(failure.to_string());
             done.failures.push(failure);
         }
     }
@@ -192,8 +199,10 @@ fn make_folders(options: &Options) -> Result<(), Failure> {
 fn write_lists(options: &Options, done: &Done) -> (Vec<PathBuf>, Result<(), Failure>) {
     let mut lists = Vec::new();
     if let Some(path) = &options.report {
-        let report = json!({ "foliar": env!("CARGO_PKG_VERSION"), "assets": done.reports });
-        lists.push((path, outputs::pretty(&report)));
+        match outputs::value(&Reports { foliar: env!("CARGO_PKG_VERSION"), assets: &done.reports }) {
+            Ok(reports) => lists.push((path, outputs::pretty(&reports))),
+            Err(failure) => return (Vec::new(), Err(failure)),
+        }
     }
     let complete = options.mode == Mode::Write && done.failures.is_empty();
     if let Some(path) = options.depfile.as_ref().filter(|_| complete) {

@@ -84,7 +84,7 @@ pub(super) fn bake(
             foliar_bake::run(baker, &inputs, &request, &bar).map_err(|e| sheet.blame(e.into()))?;
         layer.record.given = settings.given(room);
         report.find(findings.into_iter().map(|finding| sheet.placed(finding)));
-        report.set("facts", layer.record.facts.clone());
+        report.told.facts = Some(layer.record.facts.clone());
         console.log(&report.lap(room));
         (on_maps.words)(&layer, output).iter().for_each(|line| console.note(line));
         let (files, findings) = (on_maps.encode)(&layer, output)?;

@@ -7,10 +7,10 @@ use crate::options::{Mode, Options};
 use crate::outputs::{self, Job};
 use crate::report::Report;
 use crate::runner::{self, Product};
+use crate::said::{Put, RoomTold};
 use crate::{Failure, load};
 use foliar_bake::Layer;
 use foliar_carrier::Document;
-use serde_json::{Value, json};
 use std::path::Path;
 
 /// Runs the command.
@@ -38,15 +38,16 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         console.log(&report.lap("read"));
         let (document, findings) = foliar_carrier::assemble(&asset.document, &layers)?;
         report.find(findings);
-        report.set("rooms", rooms(&layers));
+        report.told.rooms = Some(rooms(&layers));
         console.log(&report.lap("assemble"));
         let names: Vec<&str> = layers.iter().map(|layer| layer.record.room.as_str()).collect();
         product(&options, report, &document, output, &format!("the base with {}", names.join(", ")))
     })
 }
 
-fn rooms(layers: &[Layer]) -> Vec<Value> {
-    layers.iter().map(|layer| json!({"room": layer.record.room, "version": layer.record.version})).collect()
+fn rooms(layers: &[Layer]) -> Vec<RoomTold> {
+    let put = |layer: &Layer| RoomTold::Put(Put { room: layer.record.room.clone(), version: layer.record.version });
+    layers.iter().map(put).collect()
 }
 
 /// Where the one document that a command makes goes.

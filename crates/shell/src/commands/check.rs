@@ -12,7 +12,8 @@ use clap::ArgMatches;
 use foliar_carrier::survey::{Survey, survey};
 use foliar_check::{Baseline, Settings};
 use foliar_schema::{Finding, Severity};
-use serde_json::json;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -52,9 +53,9 @@ pub fn run(call: &Call) -> Result<(), Failure> {
             seen = Some(master);
         }
         report.read.extend(master.iter().map(|(path, _)| path.to_path_buf()));
-        one(&job.input, &settings, &asked, seen.as_ref(), report, &mut found)?;
+        let answered = one(&job.input, &settings, &asked, seen.as_ref(), report, &mut found)?;
         console.log(&report.lap("read"));
-        Ok(Product::Answer)
+        Ok(answered)
     });
     if let Some(path) = &asked.write_baseline {
         outputs::write_text(path, Baseline::of(&found.all, folder(path)).to_text())?;
@@ -66,6 +67,30 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         0 => Ok(()),
         count => Err(Failure::Found(format!("{count} findings of severity {limit:?} or above").to_lowercase())),
     }
+}
+
+/// What is said of one file.
+#[derive(Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Looked {
+    /// The file as it was named, or `standard input`.
+    file: String,
+    /// Findings of severity error.
+    errors: usize,
+    /// Findings of severity warning.
+    warnings: usize,
+    /// Findings of severity note.
+    notes: usize,
+    /// Findings that the baseline lists, left out below.
+    known: usize,
+    /// Triangles that were looked at.
+    triangles: usize,
+    /// Pictures that were looked at.
+    pictures: usize,
+    /// Rooms of its records.
+    rooms: Vec<String>,
+    /// What was found and is not known, in the order of the rules.
+    findings: Vec<Finding>,
 }
 
 /// What was found in all files.
@@ -128,7 +153,7 @@ fn one(
     master: Option<&Survey>,
     report: &mut Report,
     found: &mut Found,
-) -> Result<(), Failure> {
+) -> Result<Product, Failure> {
     let name = if is_dash(input) { "standard input".into() } else { input.display().to_string() };
     let usage = |e: foliar_check::CheckError| Failure::usage(e.to_string());
     let checked = foliar_check::check(bytes(input)?, &name, folder(input), settings, master).map_err(usage)?;
@@ -145,12 +170,10 @@ fn one(
         "{name}: {errors} errors, {warnings} warnings, {notes} notes{of_baseline} ({} triangles, {} pictures)",
         checked.triangles, checked.pictures
     ));
-    report.text = Some(lines.join("\n"));
-    report.answer = Some(json!({
-        "file": name, "errors": errors, "warnings": warnings, "notes": notes, "known": known,
-        "triangles": checked.triangles, "pictures": checked.pictures, "rooms": checked.rooms, "findings": new,
-    }));
+    let (triangles, pictures, rooms) = (checked.triangles, checked.pictures, checked.rooms);
+    let findings = new.clone();
+    let looked = Looked { file: name, errors, warnings, notes, known, triangles, pictures, rooms, findings };
     report.tells_findings = true;
     report.find(new);
-    Ok(())
+    report.answer(lines.join("\n"), &looked)
 }

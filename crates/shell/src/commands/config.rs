@@ -6,12 +6,14 @@ use crate::flags::Direct;
 use crate::gather::Sources;
 use crate::load::{Loaded, load};
 use crate::options::Options;
-use crate::outputs::Job;
+use crate::outputs::{self, Job};
 use crate::report::Report;
-use crate::runner::{self, Product};
+use crate::runner;
 use crate::{Failure, plan};
 use foliar_bake::Facts;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value};
 use std::path::Path;
 
 /// What a configuration is called that belongs to no asset.
@@ -30,12 +32,10 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         };
         report.read.extend(settings.files.iter().cloned());
         console.log(&report.lap("read"));
-        let all: serde_json::Map<String, Value> =
-            call.fields.all().iter().map(|field| (field.dotted(), to_json(field, &settings))).collect();
-        report.set("configuration", all.clone());
-        report.answer = Some(all.into());
-        report.text = Some(table(call.fields.all(), &settings).trim_end().into());
-        Ok(Product::Answer)
+        let one = |field: &Field| Ok((field.dotted(), outputs::value(&Valued::of(field, &settings))?));
+        let all = call.fields.all().iter().map(one).collect::<Result<Map<String, Value>, Failure>>()?;
+        report.told.configuration = Some(all.clone());
+        report.answer(table(call.fields.all(), &settings).trim_end(), &all)
     })
 }
 
@@ -54,18 +54,36 @@ fn with_implied(call: &Call, loaded: Loaded, report: &mut Report) -> Result<Sett
     Ok(all)
 }
 
-fn to_json(field: &Field, settings: &Settings) -> Value {
-    match settings.get(&field.dotted()) {
-        None => json!({ "value": field.default, "from": "default" }),
-        Some(given) => {
-            let mut line =
-                json!({ "value": given.value, "from": given.origin.kind(), "place": given.origin.to_string() });
-            if let Origin::File(path, number) = &given.origin {
-                line["file"] = json!(path.display().to_string());
-                line["line"] = json!(number);
-            }
-            line
-        }
+/// A parameter's value, and where it came from.
+#[derive(Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Valued {
+    /// Its value; null where a room settles it.
+    value: Value,
+    /// `default`, `scene`, `file`, `record`, `environment` or `flag`.
+    from: &'static str,
+    /// The same with its name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<String>,
+    /// The file that gave it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
+    /// Its line there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
+}
+
+impl Valued {
+    fn of(field: &Field, settings: &Settings) -> Self {
+        let Some(given) = settings.get(&field.dotted()) else {
+            return Valued { value: field.default.clone(), from: "default", place: None, file: None, line: None };
+        };
+        let (file, line) = match &given.origin {
+            Origin::File(path, line) => (Some(path.display().to_string()), Some(*line)),
+            _ => (None, None),
+        };
+        let (value, from, place) = (given.value.clone(), given.origin.kind(), Some(given.origin.to_string()));
+        Valued { value, from, place, file, line }
     }
 }
 

@@ -7,11 +7,12 @@ use crate::options::Options;
 use crate::outputs::{Job, is_layer};
 use crate::plan::columns;
 use crate::report::Report;
-use crate::runner::{self, Product};
+use crate::runner;
 use crate::{Failure, load};
 use foliar_bake::Layer;
 use foliar_check::Difference;
-use serde_json::json;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::path::Path;
 
 /// Visible steps that a value may differ by unless another tolerance is given: what nobody sees.
@@ -44,17 +45,33 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         let is_beyond = |d: &&Difference| d.exceeds(tolerance);
         beyond = differences.iter().filter(is_beyond).map(|d| d.name.clone()).collect();
         let parameters = parameters(&first, &second);
-        report.text = Some(words(&differences, &parameters, tolerance));
-        report.answer = Some(json!({
-            "a": a.display().to_string(), "b": b.display().to_string(), "tolerance": tolerance,
-            "differs": !beyond.is_empty(), "channels": differences, "parameters": parameters,
-        }));
-        Ok(Product::Answer)
+        let text = words(&differences, &parameters, tolerance);
+        let [a, b] = [a, b].map(|path| path.display().to_string());
+        let differs = !beyond.is_empty();
+        report.answer(text, &Compared { a, b, tolerance, differs, channels: differences, parameters })
     })?;
     match beyond.as_slice() {
         [] => Ok(()),
         names => Err(Failure::Found(format!("differ by more than {tolerance} visible steps: {}", names.join(", ")))),
     }
+}
+
+/// How two bakes differ.
+#[derive(Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Compared {
+    /// The first file.
+    a: String,
+    /// The second.
+    b: String,
+    /// Visible steps that a value may differ by.
+    tolerance: f64,
+    /// Whether anything differs by more: status 1.
+    differs: bool,
+    /// Base, roles, then every channel, column, map and picture of either.
+    channels: Vec<Difference>,
+    /// Parameters that were not the same, `room.key: A, B`.
+    parameters: Vec<String>,
 }
 
 /// Layers of a file, and the hash of the base that they were put onto, where it has one.

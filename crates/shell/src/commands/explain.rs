@@ -8,9 +8,10 @@ use crate::gather::Sources;
 use crate::options::Options;
 use crate::outputs::Job;
 use crate::plan::columns;
-use crate::runner::{self, Product};
-use foliar_schema::{CODES, Check, CodeInfo, Finding};
-use serde_json::{Value, json};
+use crate::runner;
+use foliar_schema::{CODES, Check, CodeInfo, Finding, Severity};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Runs the command.
@@ -31,9 +32,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         console.log(&report.lap("read"));
         let rows =
             chosen.iter().map(|info| Ok((*info, severity(info, &check)?))).collect::<Result<Vec<_>, Failure>>()?;
-        report.text = Some(words(&rows, name.is_some()));
-        report.answer = Some(rows.iter().map(|(info, here)| value(info, here)).collect());
-        Ok(Product::Answer)
+        report.answer(words(&rows, name.is_some()), &rows.iter().map(Explained::of).collect::<Vec<_>>())
     })
 }
 
@@ -46,7 +45,7 @@ fn find(name: &str) -> Result<&'static CodeInfo, Failure> {
     })
 }
 
-fn word(severity: foliar_schema::Severity) -> String {
+fn word(severity: Severity) -> String {
     format!("{severity:?}").to_lowercase()
 }
 
@@ -57,8 +56,24 @@ fn severity(info: &CodeInfo, check: &Check) -> Result<String, Failure> {
     Ok(judged.first().map_or("off".into(), |finding| word(finding.severity)))
 }
 
-fn value(info: &CodeInfo, here: &str) -> Value {
-    json!({ "code": info.code, "severity": word(info.severity), "here": here, "meaning": info.doc })
+/// What is said of a code.
+#[derive(Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Explained {
+    /// The code.
+    code: &'static str,
+    /// How serious it is unless a project says otherwise.
+    severity: Severity,
+    /// How serious it is here: a severity, or `off`.
+    here: String,
+    /// What it means.
+    meaning: &'static str,
+}
+
+impl Explained {
+    fn of((info, here): &(&CodeInfo, String)) -> Self {
+        Explained { code: info.code, severity: info.severity, here: here.clone(), meaning: info.doc }
+    }
 }
 
 fn words(rows: &[(&CodeInfo, String)], in_full: bool) -> String {

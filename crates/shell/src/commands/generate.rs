@@ -4,6 +4,7 @@ use super::{Call, Program, commands};
 use crate::Failure;
 use crate::options::Options;
 use crate::outputs::{pretty, write_text};
+use crate::said;
 use clap::Command;
 use clap_complete::Shell;
 use foliar_schema::{FoliageExtension, LATER_ROOMS};
@@ -71,7 +72,10 @@ fn completions(folder: &Path, mut command: Command) -> Result<(), Failure> {
 fn schemas(call: &Call, folder: &Path) -> Result<(), Failure> {
     write_text(&folder.join("foliar.toml.schema.json"), pretty(&configuration(call)?))?;
     let extension = schemars::schema_for!(FoliageExtension).to_value();
-    write_text(&folder.join(format!("{}.schema.json", foliar_schema::names::EXTENSION)), pretty(&extension))
+    write_text(&folder.join(format!("{}.schema.json", foliar_schema::names::EXTENSION)), pretty(&extension))?;
+    said::schemas()
+        .into_iter()
+        .try_for_each(|(name, schema)| write_text(&folder.join(format!("{name}.schema.json")), pretty(&schema)))
 }
 
 /// JSON Schema of `foliar.toml`: one property per section, definitions of all sections together.

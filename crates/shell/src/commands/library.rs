@@ -44,7 +44,7 @@ pub fn run(call: &Call, room: &str) -> Result<(), Failure> {
         console.log(&report.lap(room));
         if call.matches.get_flag("measure") {
             report.text = Some(words(&layer.record.facts));
-            report.set(MEASURED, layer.record.facts.get(MEASURED).cloned());
+            report.told.measured = layer.record.facts.get(MEASURED).cloned();
         }
         Ok(Product::Files(vec![OutputFile { path: output.clone(), bytes: encode(&layer, &output)? }]))
     })

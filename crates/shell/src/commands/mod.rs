@@ -18,6 +18,11 @@ mod tree;
 mod view;
 mod view_leaf;
 
+pub use check::Looked;
+pub use config::Valued;
+pub use diff::Compared;
+pub use explain::Explained;
+pub use inspect::Held;
 pub use tree::{Program, commands};
 
 use crate::Failure;

@@ -29,7 +29,7 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         let packed = foliar_pack::pack(&asset, engine).map_err(|e| refuse(e, &job.input))?;
         report.find(packed.findings);
         report.find(over_budget(&packed.report, &settings.section::<Scene>("scene")?));
-        tell(report, &packed.report)?;
+        tell(report, packed.report);
         console.log(&report.lap("pack"));
         let Some(output) = &job.output else { return Ok(Product::Planned) };
         assemble::product(&options, report, &packed.document, output, &format!("a file for {}", engine.name()))
@@ -71,10 +71,7 @@ fn over_budget(packed: &PackReport, scene: &Scene) -> Option<Finding> {
 }
 
 /// What the report holds of it, and people read.
-fn tell(report: &mut Report, packed: &PackReport) -> Result<(), Failure> {
-    let value =
-        serde_json::to_value(packed).map_err(|e| Failure::Fault(format!("the report cannot be written: {e}")))?;
-    report.set("pack", value);
+fn tell(report: &mut Report, packed: PackReport) {
     let mut words = vec![format!(
         "for {}: {:.1} bytes per vertex, {} more than the base",
         packed.engine.name(),
@@ -85,6 +82,6 @@ fn tell(report: &mut Report, packed: &PackReport) -> Result<(), Failure> {
         let (rms, most) = (a.rms_steps, a.max_steps);
         format!("{} in {} ({}) off by {rms:.2} visible steps, {most:.2} at most", a.channel, a.attribute, a.stored)
     }));
-    report.set("packed", words.join("; "));
-    Ok(())
+    report.told.packed = Some(words.join("; "));
+    report.told.pack = Some(packed);
 }

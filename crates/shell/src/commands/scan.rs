@@ -50,7 +50,7 @@ pub fn run(call: &Call, baker: &dyn Baker) -> Result<(), Failure> {
         let (layer, findings) = foliar_bake::run(baker, &inputs, &request, &bar)?;
         report.find(findings);
         console.log(&report.lap(baker.room()));
-        report.set("facts", Value::Object(layer.record.facts.clone()));
+        report.told.facts = Some(layer.record.facts.clone());
         words(&layer, &output).iter().for_each(|line| console.note(line));
         let (files, findings) = encode(&layer, &output)?;
         report.find(findings);
