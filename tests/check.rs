@@ -49,6 +49,24 @@ fn severities_limits_and_baselines_decide_the_status() {
     let said = run(CHECK, &[text(&obj), "--baseline", text(&known)]).expect(0, &[]).stdout;
     assert!(said.contains("known from the baseline"), "{said}");
     run(CHECK, &[text(&obj), "--baseline", text(&obj)]).expect(2, &["no baseline"]);
+    run(CHECK, &[text(&obj), "--baseline", "gone.json"])
+        .expect(2, &["gone.json", "cannot be read", "--write-baseline"]);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_where_it_stands() {
+    let here = folder();
+    let obj = tree(here.path(), 40);
+    let project = here.path().join("foliar.toml");
+    let place = format!("{}:2: check.severity", text(&project));
+    std::fs::write(&project, "[check]\nseverity = ['IMPORT-UP=fatal']\n").unwrap();
+    run(CHECK, &[text(&obj)]).expect(2, &[&place, "must be one of off, note, warning, error"]);
+    run_in(here.path(), FOLIAR, &["explain", "STALE"]).expect(2, &["foliar.toml:2: check.severity"]);
+    std::fs::remove_file(&project).unwrap();
+    run(CHECK, &[text(&obj), "--severity", "NONE=off"]).expect(2, &["--severity: check.severity", "no such code"]);
+    run(CHECK, &[text(&obj), "--require", "dens"]).expect(2, &["--require: check.require", "density"]);
+    run(CHECK, &["-", "-"]).expect(2, &["- stands twice", "read once"]);
+    run(FOLIAR, &["diff", "-", "-"]).expect(2, &["- stands twice", "read once"]);
 }
 
 /// Warnings of the shared trees as docs/judged.md lists them: files that a name stands in, and the code.

@@ -127,8 +127,11 @@ impl Options {
     /// Refuses flags that contradict each other by their values.
     ///
     /// # Errors
-    /// [`Failure::Usage`] for `-o -` with `--check`, and for a rule about no file.
+    /// [`Failure::Usage`] for `-` named twice, for `-o -` with `--check`, and for a rule about no file.
     pub fn refuse_contradictions(&self, jobs: &[Job]) -> Result<(), Failure> {
+        if self.inputs.iter().filter(|input| is_dash(input)).count() > 1 {
+            return Err(Failure::usage("- stands twice, and standard input can be read once: name the other file"));
+        }
         if self.mode == Mode::Check && self.output.as_deref().is_some_and(is_dash) {
             let text = "--check with -o -: standard output holds nothing to compare with: name the file with -o FILE";
             return Err(Failure::usage(text));

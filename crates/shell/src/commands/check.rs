@@ -10,7 +10,7 @@ use crate::runner::{self, Product};
 use crate::{Failure, console};
 use clap::ArgMatches;
 use foliar_carrier::survey::{Survey, survey};
-use foliar_check::{Baseline, Settings};
+use foliar_check::{Baseline, Checked, Settings};
 use foliar_schema::{Finding, Severity};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -53,9 +53,9 @@ pub fn run(call: &Call) -> Result<(), Failure> {
             seen = Some(master);
         }
         report.read.extend(master.iter().map(|(path, _)| path.to_path_buf()));
-        let answered = one(&job.input, &settings, &asked, seen.as_ref(), report, &mut found)?;
+        let checked = look(&job.input, (&settings, &given), seen.as_ref(), report)?;
         console.log(&report.lap("read"));
-        Ok(answered)
+        tell(&job.input, checked, &asked, report, &mut found)
     });
     if let Some(path) = &asked.write_baseline {
         outputs::write_text(path, Baseline::of(&found.all, folder(path)).to_text())?;
@@ -122,7 +122,8 @@ impl Asked {
             None => Baseline::default(),
             Some(file) => {
                 let refuse = |e: String| Failure::usage(format!("--baseline {}: {e}", file.display()));
-                let text = std::fs::read_to_string(&file).map_err(|e| refuse(format!("cannot be read: {e}")))?;
+                let unread = |e| refuse(format!("cannot be read: {e}: write one with foliar-check --write-baseline"));
+                let text = std::fs::read_to_string(&file).map_err(unread)?;
                 Baseline::parse(&text).map_err(refuse)?
             }
         };
@@ -146,19 +147,31 @@ fn bytes(input: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-fn one(
+fn name(input: &Path) -> String {
+    if is_dash(input) { "standard input".into() } else { input.display().to_string() }
+}
+
+fn look(
     input: &Path,
-    settings: &Settings,
-    asked: &Asked,
+    (settings, given): (&Settings, &crate::config::Settings),
     master: Option<&Survey>,
+    report: &mut Report,
+) -> Result<Checked, Failure> {
+    let checked = foliar_check::check(bytes(input)?, &name(input), folder(input), settings, master);
+    let checked = checked.map_err(|e| given.refused(e))?;
+    report.read.push(input.to_path_buf());
+    report.read.extend(checked.files.iter().cloned());
+    Ok(checked)
+}
+
+fn tell(
+    input: &Path,
+    checked: Checked,
+    asked: &Asked,
     report: &mut Report,
     found: &mut Found,
 ) -> Result<Product, Failure> {
-    let name = if is_dash(input) { "standard input".into() } else { input.display().to_string() };
-    let usage = |e: foliar_check::CheckError| Failure::usage(e.to_string());
-    let checked = foliar_check::check(bytes(input)?, &name, folder(input), settings, master).map_err(usage)?;
-    report.read.push(input.to_path_buf());
-    report.read.extend(checked.files);
+    let name = name(input);
     found.all.extend(checked.findings.iter().cloned());
     let (new, known) = asked.baseline.filter(checked.findings, &asked.home);
     found.grave += new.iter().filter(|finding| finding.severity >= found.limit).count();

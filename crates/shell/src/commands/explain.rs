@@ -9,6 +9,7 @@ use crate::options::Options;
 use crate::outputs::Job;
 use crate::plan::columns;
 use crate::runner;
+use foliar_check::CheckError;
 use foliar_schema::{CODES, Check, CodeInfo, Finding, Severity};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -31,7 +32,8 @@ pub fn run(call: &Call) -> Result<(), Failure> {
         let check: Check = settings.section("check")?;
         console.log(&report.lap("read"));
         let rows =
-            chosen.iter().map(|info| Ok((*info, severity(info, &check)?))).collect::<Result<Vec<_>, Failure>>()?;
+            chosen.iter().map(|info| Ok((*info, severity(info, &check)?))).collect::<Result<Vec<_>, CheckError>>();
+        let rows = rows.map_err(|e| settings.refused(e))?;
         report.answer(words(&rows, name.is_some()), &rows.iter().map(Explained::of).collect::<Vec<_>>())
     })
 }
@@ -50,9 +52,8 @@ fn word(severity: Severity) -> String {
 }
 
 /// How serious a code is in this project.
-fn severity(info: &CodeInfo, check: &Check) -> Result<String, Failure> {
-    let finding = Finding::new(info, "");
-    let judged = foliar_check::judged(vec![finding], check).map_err(|e| Failure::usage(e.to_string()))?;
+fn severity(info: &CodeInfo, check: &Check) -> Result<String, CheckError> {
+    let judged = foliar_check::judged(vec![Finding::new(info, "")], check)?;
     Ok(judged.first().map_or("off".into(), |finding| word(finding.severity)))
 }
 

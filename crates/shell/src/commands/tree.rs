@@ -284,7 +284,12 @@ fn check(command: Command, fields: &Fields) -> Command {
 fn diff(fields: &Fields) -> Command {
     let command = Command::new("diff")
         .about("Says how two bakes differ, channel by channel; status 1 beyond the tolerance")
-        .arg(flags::inputs("A B", "Two baked files: GLB, glTF or layers").num_args(2).required(true))
+        .arg(
+            flags::inputs("A", "Two baked files: GLB, glTF or layers")
+                .value_names(["A", "B"])
+                .num_args(2)
+                .required(true),
+        )
         .arg(
             Arg::new("tolerance")
                 .long("tolerance")

@@ -129,6 +129,14 @@ impl Settings {
         object
     }
 
+    /// A refusal that begins with the name of a parameter, behind the source of its value.
+    pub fn refused(&self, error: impl std::fmt::Display) -> Failure {
+        let text = error.to_string();
+        let name = text.split(' ').next().unwrap_or_default();
+        let source = self.get(name).map_or_else(String::new, |given| format!("{}: ", given.origin));
+        Failure::usage(format!("{source}{text}"))
+    }
+
     /// A section as its struct, defaults filled in.
     ///
     /// # Errors
