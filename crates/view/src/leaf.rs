@@ -13,6 +13,8 @@ use image::RgbaImage;
 
 /// Widest picture of a leaf on a sheet, pixels.
 const WIDEST: usize = 420;
+/// Narrower ones are magnified to this or more: a legend fits below.
+const LEAST: u32 = 320;
 /// Light through a typical leaf of .2 mm at 610, 550 and 450 nm over that at 550 nm (PROSPECT-D): tints a map of one band.
 const TINT: Vec3 = Vec3::new(0.42, 1.0, 0.009);
 /// Share of the leaf that may be brighter than what is drawn as full light.
@@ -26,11 +28,11 @@ const ROOM: f32 = 0.012;
 /// counter-clockwise).
 const LIGHTS: [(&str, f64, f64); 6] = [
     ("straight behind", 0.0, 0.0),
-    ("behind, 45 degrees to the right", 45.0, 0.0),
-    ("behind, 45 degrees to the left", 45.0, 180.0),
-    ("behind, 45 degrees up", 45.0, 90.0),
-    ("behind, 75 degrees to the right", 75.0, 0.0),
-    ("behind, 75 degrees to the left", 75.0, 180.0),
+    ("45 deg right", 45.0, 0.0),
+    ("45 deg left", 45.0, 180.0),
+    ("45 deg up", 45.0, 90.0),
+    ("75 deg right", 75.0, 0.0),
+    ("75 deg left", 75.0, 180.0),
 ];
 
 /// Maps of one side: red, green, blue, or one for all.
@@ -90,7 +92,8 @@ impl<'a> Side<'a> {
                 for x in left..(left + step).min(width) {
                     let texel = &raster.data[4 * (y * width + x)..4 * (y * width + x) + 4];
                     all += 1;
-                    if texel.iter().any(|v| *v != 0.0) {
+                    // Coefficients go on beyond the rim; the mean says where the leaf is.
+                    if texel[3] > 0.0 {
                         leaf += 1;
                         sum += value(texel);
                     }
@@ -153,7 +156,7 @@ impl<'a> Side<'a> {
 fn picture(columns: usize, bytes: Vec<u8>) -> RgbaImage {
     let (width, height) = (columns as u32, (bytes.len() / 4 / columns.max(1)) as u32);
     let small = RgbaImage::from_raw(width, height, bytes).unwrap_or_default();
-    let times = (WIDEST as u32 / width.max(height).max(1)).max(1);
+    let times = LEAST.div_ceil(width.max(height).max(1));
     image::imageops::resize(&small, width * times, height * times, image::imageops::FilterType::Nearest)
 }
 

@@ -31,6 +31,11 @@ impl Image {
         Image { width, height, data, full: [width, height], level: 0 }
     }
 
+    /// Three numbers of each texel.
+    pub fn texels(&self) -> &[f32] {
+        &self.data
+    }
+
     #[inline(always)]
     pub fn row(&self, y: usize) -> &[f32] {
         &self.data[y * self.width * 3..(y + 1) * self.width * 3]

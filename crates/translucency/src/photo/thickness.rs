@@ -4,6 +4,8 @@
 //! widths, after Frangi 1998).
 
 use crate::kernel::Taps;
+use crate::map::Image;
+use foliar_numerics::Isa;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,8 +67,9 @@ pub fn thickness_from_photo(rgba: &[f32], width: usize, look: &Look) -> Vec<f32>
 fn veins(rgba: &[f32], leaf: &[bool], width: usize, size: f64, look: Veins) -> Vec<f32> {
     // The cube root is nearly what eyes call even steps: veins stand out alike in dark and light leaves.
     let brightness = |texel: &[f32]| libm::cbrtf((0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2]).max(0.0));
-    let levels: Vec<f32> = rgba.chunks_exact(4).map(brightness).collect();
-    let ridges = |sign: f32| WIDTHS.map(|(share, _)| ridge(&levels, leaf, width, (share * size).max(0.8), sign));
+    let levels: Vec<f32> = rgba.par_chunks_exact(4).map(brightness).collect();
+    let smooth = WIDTHS.map(|(share, _)| Smooth::of(&levels, leaf, width, (share * size).max(0.8)));
+    let ridges = |sign: f32| smooth.each_ref().map(|smooth| smooth.ridges(leaf, sign));
     // Dark and light by what the widest veins say: of the net, gaps are as sharp as lines.
     let strength = |ridges: &[Vec<f32>; 5]| ridges[2..].iter().flatten().map(|v| f64::from(*v)).sum::<f64>();
     let found = match look {
@@ -88,43 +91,46 @@ fn veins(rgba: &[f32], leaf: &[bool], width: usize, size: f64, look: Veins) -> V
     added
 }
 
-/// How much a texel is a ridge of this width: bent across (with this sign), straight along.
-fn ridge(levels: &[f32], leaf: &[bool], width: usize, sigma: f64, sign: f32) -> Vec<f32> {
-    let weights: Vec<f32> = leaf.iter().map(|leaf| f32::from(u8::from(*leaf))).collect();
-    let taps = Taps::gaussian(sigma * sigma);
-    let weighted: Vec<f32> = levels.iter().zip(&weights).map(|(v, w)| v * w).collect();
-    let (sum, weight) = (blurred(&weighted, width, &taps), blurred(&weights, width, &taps));
-    let smooth: Vec<f32> = sum.iter().zip(&weight).map(|(s, w)| if *w > 1e-3 { s / w } else { 0.0 }).collect();
-    let rows = leaf.len() / width;
-    // As far as the blur reaches the rim is a ridge of its own making.
-    let reach = (1.5 * sigma).ceil() as usize;
-    let value = |at: usize| {
-        let (x, y) = (at % width, at / width);
-        let inner = leaf[at] && x >= reach && y >= reach && x + reach < width && y + reach < rows && weight[at] > 0.9;
-        if !inner {
-            return 0.0;
-        }
-        let v = |dx: i64, dy: i64| smooth[(at as i64 + dy * width as i64 + dx) as usize];
-        let (xx, yy) = (v(1, 0) + v(-1, 0) - 2.0 * v(0, 0), v(0, 1) + v(0, -1) - 2.0 * v(0, 0));
-        let xy = (v(1, 1) + v(-1, -1) - v(1, -1) - v(-1, 1)) / 4.0;
-        let (mean, half) = (sign * (xx + yy) / 2.0, ((xx - yy) * (xx - yy) / 4.0 + xy * xy).sqrt());
-        let (across, along) = (mean + half, mean - half);
-        (across - along.abs()).max(0.0) * (sigma * sigma) as f32
-    };
-    (0..leaf.len()).into_par_iter().map(value).collect()
+/// Brightness smoothed over the leaf alone, and the share of the smoothing that was leaf.
+struct Smooth {
+    width: usize,
+    sigma: f64,
+    levels: Vec<f32>,
+    weights: Vec<f32>,
 }
 
-fn blurred(image: &[f32], width: usize, taps: &Taps) -> Vec<f32> {
-    let rows = image.len() / width;
-    let line = |at: usize, value: &dyn Fn(usize) -> f32, length: usize| {
-        let side = |k: usize| at.checked_sub(k).map_or(0.0, value) + if at + k < length { value(at + k) } else { 0.0 };
-        taps.0[0] * value(at) + taps.0.iter().enumerate().skip(1).map(|(k, tap)| tap * side(k)).sum::<f32>()
-    };
-    let across: Vec<f32> = (0..image.len())
-        .into_par_iter()
-        .map(|at| line(at % width, &|x| image[at / width * width + x], width))
-        .collect();
-    (0..image.len()).into_par_iter().map(|at| line(at / width, &|y| across[y * width + at % width], rows)).collect()
+impl Smooth {
+    fn of(levels: &[f32], leaf: &[bool], width: usize, sigma: f64) -> Smooth {
+        let mut both = vec![0.0; 3 * leaf.len()];
+        let texels = both.par_chunks_exact_mut(3).zip(levels.par_iter().zip(leaf)).filter(|(_, (_, leaf))| **leaf);
+        texels.for_each(|(texel, (level, _))| texel[..2].copy_from_slice(&[*level, 1.0]));
+        let taps = Taps::gaussian(sigma * sigma);
+        let both = Image::new(width, leaf.len() / width, both).filtered((&taps, &taps), Isa::best());
+        let texels = both.texels().par_chunks_exact(3);
+        let (levels, weights) = texels.map(|t| (if t[1] > 1e-3 { t[0] / t[1] } else { 0.0 }, t[1])).unzip();
+        Smooth { width, sigma, levels, weights }
+    }
+
+    /// How much each texel is a ridge of this width: bent across (with this sign), straight along.
+    fn ridges(&self, leaf: &[bool], sign: f32) -> Vec<f32> {
+        let (width, rows) = (self.width, leaf.len() / self.width);
+        // As far as the blur reaches the rim is a ridge of its own making.
+        let reach = (1.5 * self.sigma).ceil() as usize;
+        let value = |at: usize| {
+            let (x, y) = (at % width, at / width);
+            let within = x >= reach && y >= reach && x + reach < width && y + reach < rows;
+            if !(leaf[at] && within && self.weights[at] > 0.9) {
+                return 0.0;
+            }
+            let v = |dx: i64, dy: i64| self.levels[(at as i64 + dy * width as i64 + dx) as usize];
+            let (xx, yy) = (v(1, 0) + v(-1, 0) - 2.0 * v(0, 0), v(0, 1) + v(0, -1) - 2.0 * v(0, 0));
+            let xy = (v(1, 1) + v(-1, -1) - v(1, -1) - v(-1, 1)) / 4.0;
+            let (mean, half) = (sign * (xx + yy) / 2.0, ((xx - yy) * (xx - yy) / 4.0 + xy * xy).sqrt());
+            let (across, along) = (mean + half, mean - half);
+            (across - along.abs()).max(0.0) * (self.sigma * self.sigma) as f32
+        };
+        (0..leaf.len()).into_par_iter().map(value).collect()
+    }
 }
 
 /// The strength that all but a few texels of the leaf stay below.

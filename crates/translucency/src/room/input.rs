@@ -142,7 +142,10 @@ impl Sheet {
             self.findings.push(finding(&code::MAP_THIN, name, message));
         }
         if thin > 0 {
-            let message = format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that");
+            let all = self.thickness_mm.iter().filter(|thickness| **thickness > 0.0).count();
+            let other = if 10 * thin > all { "; is this the map of another leaf than the alpha?" } else { "" };
+            let message =
+                format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that{other}");
             self.findings.push(finding(&code::MAP_THIN, name, message));
         }
         Ok(())
