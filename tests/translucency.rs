@@ -242,7 +242,7 @@ fn photographs_are_passed_on_and_embedded_maps_stand_alone() {
     let baked = fresh("lucy-photo.glb");
     let flags =
         [text(&source), "--thickness", text(&map), "--backlit", text(&photo), "--embed-all", "-o", text(&baked)];
-    run(TRANSLUCENCY, &with_flags(&flags)).expect(0, &[]);
+    run(TRANSLUCENCY, &with_flags(&flags)).expect(0, &["MAP-TWICE", "--normalize diffuse"]);
     verify_file(&baked).unwrap();
     assert!(sides(&baked).is_empty(), "{:?}", sides(&baked));
     let (json, binary) = open_glb(&baked);
@@ -300,6 +300,27 @@ fn three_bands_go_onto_a_tree() {
     assert_eq!(json["textures"].as_array().unwrap().len(), 7, "six maps and the photograph");
     let bytes = std::fs::read(&photo).unwrap();
     assert!(binary.windows(bytes.len()).any(|window| window == bytes), "a JPEG is passed on as it is");
+}
+
+/// `tree.glb` and `tree.gltf` have one folder of maps: what either still names is left when the other is baked anew.
+#[test]
+fn two_files_of_one_name_keep_their_maps() {
+    let here = folder();
+    let source = tree(here.path(), 20);
+    let map = thickness(here.path(), "t.png", 16, 0.1);
+    let [glb, gltf] = ["two.glb", "two.gltf"].map(|name| here.path().join(name));
+    let bake = |to: &Path, more: &[&str]| {
+        let flags = [text(&source), "--thickness", text(&map), "-o", text(to)];
+        run(TRANSLUCENCY, &with_flags(&[&flags[..], more].concat())).expect(0, &[]);
+    };
+    bake(&glb, &[]);
+    bake(&gltf, &[]);
+    let both = sides(&glb);
+    bake(&glb, &["--preset", "dark"]);
+    assert!(both.iter().all(|side| sides(&glb).contains(side)), "{both:?} {:?}", sides(&glb));
+    verify_file(&gltf).unwrap();
+    bake(&gltf, &["--preset", "dark"]);
+    assert!(both.iter().all(|side| !sides(&glb).contains(side)), "{both:?} {:?}", sides(&glb));
 }
 
 /// Nothing can lie beside standard output: what goes there stands alone.

@@ -282,6 +282,7 @@ fn what_has_no_say_is_said() {
     };
     bake(&["--wavelength-nm", "600", "--bands", "rgb"], &["PARAM-IDLE", "[translucency] wavelength_nm", "550"]);
     bake(&["--normal-front", "n.png", "--sides", "front"], &["MAP-UNUSED", "n.png", "lit from the back"]);
+    bake(&["--height-back", "n.png", "--height-scale-mm", "1"], &["MAP-COLOR", "n.png", "red alone"]);
 }
 
 /// What is warned of, not refused: few bits, tags of color; and the smallest maps.

@@ -123,11 +123,14 @@ pub(crate) fn remove_folders(folders: &[PathBuf]) {
     }
 }
 
-/// Removes files that nothing names any more, and side folders where these are empty then.
+/// Removes files that nothing names any more, and side folders where these are empty then. `tree.glb` and `tree.gltf` have
+/// one folder: what the other names stays.
 pub(crate) fn remove(files: &[PathBuf]) {
-    for file in files {
+    let folders: BTreeSet<&Path> = files.iter().filter_map(|file| file.parent()).filter(|f| is_side(f)).collect();
+    let siblings = folders.iter().flat_map(|folder| ["glb", "gltf"].map(|ending| folder.with_extension(ending)));
+    let named: BTreeSet<PathBuf> = siblings.flat_map(|path| named_by(&path)).collect();
+    for file in files.iter().filter(|file| !named.contains(*file)) {
         let _ = std::fs::remove_file(file);
     }
-    let folders: BTreeSet<PathBuf> = files.iter().filter_map(|file| file.parent()).map(Path::to_path_buf).collect();
-    remove_folders(&folders.into_iter().filter(|folder| is_side(folder)).collect::<Vec<_>>());
+    remove_folders(&folders.into_iter().map(Path::to_path_buf).collect::<Vec<_>>());
 }

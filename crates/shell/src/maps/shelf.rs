@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::config::Origin;
 use crate::options::is_dash;
 use foliar_bake::{FloatRaster, MapRaster};
-use foliar_schema::{Finding, Import, names};
+use foliar_schema::{Finding, Import, code, names};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -72,6 +72,11 @@ impl Shelf<'_> {
         for (_, file) in photographs {
             let (bytes, name) = bytes(file);
             sheet.pictures.insert(names::PICTURE_COLOR.into(), photograph(bytes, &name)?);
+            if wanted.given.get("normalize").is_none_or(|by| by != "diffuse") {
+                let text = "the photograph holds how much light comes through, and so do the coefficients: say --normalize diffuse, \
+                            unless its brightness was taken out of it";
+                findings.push(Finding::new(&code::MAP_TWICE, text).in_file(name));
+            }
         }
         let decode = |(_, file): &&(String, PathBuf)| {
             let (bytes, name) = bytes(file);

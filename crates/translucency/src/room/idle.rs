@@ -3,7 +3,7 @@
 use super::finding;
 use super::params::{Bands, Params, Sides, ThicknessFrom};
 use crate::map::Spreading;
-use foliar_bake::{Idle, Maps};
+use foliar_bake::{FloatRaster, Idle, Maps};
 use foliar_schema::{Finding, code, names};
 
 /// Parameters of which nothing is read.
@@ -42,11 +42,22 @@ fn of_the_dark(sides: Sides) -> &'static [&'static str] {
     }
 }
 
-/// What is said of maps that nothing reads.
-pub(super) fn maps(sides: Sides, maps: &Maps) -> Vec<Finding> {
-    let (shown, lit) = if sides == Sides::Front { ("front", "back") } else { ("back", "front") };
+/// What is said of maps that nothing reads, and of colors where one number a texel is read.
+pub(super) fn maps(params: &Params, maps: &Maps) -> Vec<Finding> {
+    let (shown, lit) = if params.sides == Sides::Front { ("front", "back") } else { ("back", "front") };
     let message =
         format!("was not read: sides = {shown} bakes what is seen on the {shown}, which is lit from the {lit}");
-    let unused = of_the_dark(sides).iter().filter(|name| maps.contains_key(**name));
-    unused.map(|name| finding(&code::MAP_UNUSED, name, message.clone())).collect()
+    let unused = of_the_dark(params.sides).iter().filter(|name| maps.contains_key(**name));
+    let unused = unused.map(|name| finding(&code::MAP_UNUSED, name, message.clone()));
+    let gray = [names::MAP_THICKNESS, names::MAP_ALPHA, names::MAP_HEIGHT_FRONT, names::MAP_HEIGHT_BACK];
+    let photo = params.thickness_from == ThicknessFrom::Photo;
+    let read = gray.into_iter().filter(|name| !(photo && *name == names::MAP_THICKNESS));
+    let colored = read.filter(|name| maps.get(*name).is_some_and(|map| has_colors(&map.raster)));
+    let red = "its channels differ, and red alone is read: one channel holds what it should";
+    unused.chain(colored.map(|name| finding(&code::MAP_COLOR, name, red.into()))).collect()
+}
+
+fn has_colors(raster: &FloatRaster) -> bool {
+    let channels = raster.channels as usize;
+    channels > 2 && raster.data.chunks_exact(channels).any(|texel| texel[1] != texel[0] || texel[2] != texel[0])
 }

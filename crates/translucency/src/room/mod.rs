@@ -108,7 +108,7 @@ fn walk(
     let by = texels::merged(sheet.texel_mm, size, params.coarsest_mm);
     let mut maps = Map::new();
     let (mut done, mut cost) = (0, 0.0f64);
-    baked.findings.extend(idle::maps(params.sides, inputs.maps));
+    baked.findings.extend(idle::maps(&params, inputs.maps));
     baked.findings.extend(sheet::fitted_tissue(&params, &bands));
     for (side, raster) in sides {
         let map = sheet.lit_side(*side);
