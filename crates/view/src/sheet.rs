@@ -184,7 +184,12 @@ pub fn comparison(
     };
     let [before, after] = plants.map(draw);
     let (before, after) = (before?, after?);
-    let changed = difference(&before, &after)?;
+    // Legends are the same for both: they are no part of what differs.
+    let drawn = |picture: &RgbaImage| {
+        let (width, height) = picture.dimensions();
+        image::imageops::crop_imm(picture, 0, 0, width, height.min(params.height_px)).to_image()
+    };
+    let changed = difference(&drawn(&before), &drawn(&after))?;
     let caption = changed.to_string();
     let [a, b] = plants.map(|(_, _, name)| name);
     let panels = [Panel::new(a, before), Panel::new(b, after), Panel::new(caption, changed.picture)];

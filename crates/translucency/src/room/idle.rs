@@ -57,7 +57,9 @@ pub(super) fn maps(params: &Params, maps: &Maps) -> Vec<Finding> {
     unused.chain(colored.map(|name| finding(&code::MAP_COLOR, name, red.into()))).collect()
 }
 
+/// More than a step of 8 bits: gray that was a JPEG has differences of one.
 fn has_colors(raster: &FloatRaster) -> bool {
     let channels = raster.channels as usize;
-    channels > 2 && raster.data.chunks_exact(channels).any(|texel| texel[1] != texel[0] || texel[2] != texel[0])
+    let differs = |texel: &[f32]| texel[1..3].iter().any(|v| (v - texel[0]).abs() > 1.5 / 255.0);
+    channels > 2 && raster.data.chunks_exact(channels).any(differs)
 }

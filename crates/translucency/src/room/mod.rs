@@ -33,7 +33,7 @@ impl Baker for Translucency {
     }
 
     fn version(&self) -> u32 {
-        4
+        5
     }
 
     fn about(&self) -> &'static str {

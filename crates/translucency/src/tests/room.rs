@@ -247,7 +247,7 @@ fn golden_statistics_belong_to_the_version() {
     let layer = bake(&maps(64), json!({"leaf_width_mm": 80.0})).unwrap().0;
     let facts = &layer.record.facts["maps"];
     let mean = |name: &str| facts[name]["meanTransmission"].as_f64().unwrap();
-    assert_eq!(layer.record.version, 4);
+    assert_eq!(layer.record.version, 5);
     for (name, golden) in
         [(names::RASTER_TRANSLUCENCY_FRONT, 0.064_452_6), (names::RASTER_TRANSLUCENCY_BACK, 0.064_416_5)]
     {
