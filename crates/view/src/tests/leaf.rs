@@ -82,3 +82,15 @@ fn both_sides_of_a_leaf_of_a_master_are_drawn() {
     let [a, b] = [0, 1].map(|column| held.get_pixel(12 + column * cell + 60, 12 + 24 + 100).0[1]);
     assert!(a > b, "{a} {b}");
 }
+
+/// Coefficients go on beyond the rim, for mips: where the mean is 0 there is no leaf.
+#[test]
+fn nothing_is_drawn_where_there_is_no_leaf() {
+    let bare = layer();
+    let mut filled = bare.clone();
+    let raster = filled.rasters.get_mut(names::RASTER_TRANSLUCENCY_BACK).unwrap();
+    for texel in raster.data.chunks_exact_mut(4).filter(|texel| texel[3] <= 0.0) {
+        texel[..3].copy_from_slice(&[0.9; 3]);
+    }
+    assert!(leaf_sheet(&bare, "", "x").unwrap() == leaf_sheet(&filled, "", "x").unwrap());
+}
