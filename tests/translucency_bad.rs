@@ -133,7 +133,8 @@ fn sized(map: &'static str) -> Vec<&'static str> {
 
 /// Name, arguments, status and words of maps that are refused.
 fn refused() -> Vec<Row<'static>> {
-    let with = |more: &[&'static str]| [sized("t.png"), more.to_vec()].concat();
+    let with2 = |map: &'static str, more: &[&'static str]| [sized(map), more.to_vec()].concat();
+    let with = |more: &[&'static str]| with2("t.png", more);
     vec![
         ("no map", vec!["--leaf-width-mm", "60"], 2, vec!["--thickness FILE"]),
         ("no size", vec!["--thickness", "t.png", "--thickness-scale-mm", "1"], 2, vec!["leaf_width_mm", "texel_mm"]),
@@ -169,6 +170,14 @@ fn refused() -> Vec<Row<'static>> {
             vec!["small.png", "8 x 8", "one size"],
         ),
         ("other size", with(&["--normal-back", "narrow.png"]), 3, vec!["narrow.png", "8 x 16", "16 x 16", "one size"]),
+        (
+            "zero under an alpha",
+            with2("zero.png", &["--alpha", "t.png"]),
+            3,
+            vec!["zero.png", "0 everywhere", "this leaf"],
+        ),
+        ("alpha of nothing", with(&["--alpha", "zero.png"]), 3, vec!["zero.png", "map alpha", "covers no texel"]),
+        ("kilometers", with(&["--thickness-offset-mm", "1e9"]), 3, vec!["t.png", "texels", "millimeters"]),
         ("no normals", with(&["--normal-back", "t.png"]), 3, vec!["t.png", "three channels"]),
         ("enormous PNG", sized("enormous.png"), 3, vec!["enormous.png", "100000 x 100000", "scale it down"]),
         ("enormous EXR", sized("enormous.exr"), 3, vec!["enormous.exr", "100000 x 100000", "scale it down"]),
@@ -275,13 +284,14 @@ fn bad_maps_of_a_tree_leave_it_as_it_was() {
 fn what_has_no_say_is_said() {
     let here = folder();
     thickness(here.path(), "t.png", 16, 0.1);
-    ImageBuffer::from_pixel(16, 16, Rgb([128u16, 128, 255])).save(here.path().join("n.png")).unwrap();
+    ImageBuffer::from_pixel(16, 16, Rgb([32_768u16, 32_768, 65_535])).save(here.path().join("n.png")).unwrap();
     let bake = |more: &[&'static str], said: &[&str]| {
         let run = run_in(here.path(), TRANSLUCENCY, &[&sized("t.png")[..], &["-o", "leaf.exr"], more].concat());
         run.expect(0, said);
     };
     bake(&["--wavelength-nm", "600", "--bands", "rgb"], &["PARAM-IDLE", "[translucency] wavelength_nm", "550"]);
     bake(&["--normal-front", "n.png", "--sides", "front"], &["MAP-UNUSED", "n.png", "lit from the back"]);
+    bake(&["--thickness-offset-mm", "200"], &["MAP-UNIT", "t.png", "millimeters"]);
     bake(&["--height-back", "n.png", "--height-scale-mm", "1"], &["MAP-COLOR", "n.png", "red alone"]);
 }
 

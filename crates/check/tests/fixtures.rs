@@ -20,6 +20,7 @@ const SAID_ELSEWHERE: &[(&str, &str)] = &[
     ("NAME-TAKEN", "assembling"),
     ("NEIGHBOR-", "baking beside neighbors"),
     ("PACK-", "packing"),
+    ("PARAM-", "baking a room"),
     ("QUALITY-MISSED", "baking a room"),
     ("SCAN-", "scanning a leaf"),
 ];

@@ -91,6 +91,7 @@ codes! {
     MAP_STEEP = "MAP-STEEP", Note, "Thickness rises steeper than 1:1: light leaves through the wall there, which the model does not know.";
     MAP_THIN = "MAP-THIN", Note, "Texels are thinner than any leaf: taken for the least thickness, or, below 0, for no leaf.";
     MAP_TWICE = "MAP-TWICE", Note, "A photograph against the light and coefficients of physical size both hold how thick the leaf is: it counts twice; say normalize = diffuse.";
+    MAP_UNIT = "MAP-UNIT", Warning, "A map says a leaf that no plant has: its thickness or its width is probably not in millimeters.";
     MAP_UNUSED = "MAP-UNUSED", Warning, "A map, or a parameter of a material, was given and nothing reads it: for a material that no leaf has, or a side that no light falls on; correct the name, or take it out.";
     MATERIAL_CULLED = "MATERIAL-CULLED", Warning, "A leaf material is seen from one side only, and its leaves have no back: half of them vanish; set doubleSided.";
     NAME_TAKEN = "NAME-TAKEN", Note, "A name that foliar writes is taken by the base: the next free one was used.";

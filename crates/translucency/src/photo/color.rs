@@ -22,6 +22,8 @@ const NODES: usize = 16;
 pub struct ColorEstimate {
     /// Per band, (albedo, transmission) by rising albedo.
     bands: [Vec<(f64, f64)>; 3],
+    /// Transmission of the kind of leaf itself.
+    kind: [f64; 3],
 }
 
 impl ColorEstimate {
@@ -30,10 +32,18 @@ impl ColorEstimate {
         let mut spectrum = SPECTRUM_NM.map(|nm| preset.medium(nm)).into_iter().collect::<Option<Vec<Medium>>>()?;
         spectrum.sort_by(|a, b| a.absorption.total_cmp(&b.absorption));
         let mut bands = [const { Vec::new() }; 3];
-        for (band, wavelength) in bands.iter_mut().zip(WAVELENGTHS_NM) {
-            *band = solved(&preset.medium(wavelength)?, &spectrum, thickness_mm);
+        let mut kind = [0.0; 3];
+        for ((band, own), wavelength) in bands.iter_mut().zip(&mut kind).zip(WAVELENGTHS_NM) {
+            let medium = preset.medium(wavelength)?;
+            *band = solved(&medium, &spectrum, thickness_mm);
+            *own = AddingDoubling::one(&medium, thickness_mm, 1.0, NODES).transmittance;
         }
-        Some(ColorEstimate { bands })
+        Some(ColorEstimate { bands, kind })
+    }
+
+    /// Linear color of light that comes through a leaf of this kind whose own color nobody knows.
+    pub fn of_its_kind(&self) -> [f64; 3] {
+        self.kind
     }
 
     /// Linear color of light that came through a place of this albedo (linear base color): below 1, rising with it. What is

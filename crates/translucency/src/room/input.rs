@@ -40,7 +40,7 @@ pub struct Sheet {
 }
 
 /// A map that cannot be used, and what would be right.
-fn bad(map: &str, problem: impl Into<String>, remedy: impl Into<String>) -> BakeError {
+pub(super) fn bad(map: &str, problem: impl Into<String>, remedy: impl Into<String>) -> BakeError {
     BakeError::Map { room: ROOM.into(), map: map.into(), problem: problem.into(), remedy: remedy.into() }
 }
 
@@ -58,7 +58,7 @@ impl Sheet {
         }
         for (other, map) in maps {
             let size = if other == names::MAP_ALBEDO { (1, 1) } else { (width, height) };
-            check(other, map, size)?;
+            super::size::check(other, map, size)?;
         }
         let albedo = maps.get(names::MAP_ALBEDO).and_then(|map| map.raster.data.first_chunk().copied());
         let mut sheet = Sheet { width, height, albedo, texel_mm: params.texel_mm(width), ..Sheet::default() };
@@ -101,13 +101,13 @@ impl Sheet {
         let (range, median) = (leaf.range_mm(), leaf.median_mm());
         self.thickness_mm = leaf.thickness_mm;
         let (Some(range), Some(median)) = (range, median) else {
-            return Err(bad(
-                name,
-                "is 0 everywhere: there is no leaf in it",
-                "give a map whose leaf is above 0, or an alpha map",
-            ));
+            return Err(match maps.contains_key(names::MAP_ALPHA) {
+                true => bad(names::MAP_ALPHA, "covers no texel: there is no leaf in it", "give the alpha of the leaf"),
+                false => bad(name, "is 0 everywhere: there is no leaf in it", "give a map above 0, or an alpha map"),
+            });
         };
         (self.range_mm, self.median_mm) = (range, median);
+        self.findings.extend(super::size::judge(range.1, median, self.texel_mm, self.width)?);
         if params.thickness_from == ThicknessFrom::Map {
             let scale = scale_of(name, "thickness_scale_mm", map, params.thickness_scale_mm)?;
             self.step = (map.bits < 32).then(|| (map.bits, scale / steps(map.bits)));
@@ -143,6 +143,9 @@ impl Sheet {
         }
         if thin > 0 {
             let all = self.thickness_mm.iter().filter(|thickness| **thickness > 0.0).count();
+            if thin == all {
+                return Err(bad(name, "is 0 everywhere on the leaf that the alpha shows", "give the map of this leaf"));
+            }
             let other = if 10 * thin > all { "; is this the map of another leaf than the alpha?" } else { "" };
             let message =
                 format!("{thin} texels of the leaf are thinner than {LEAST_THICKNESS_MM} mm: taken for that{other}");
@@ -313,10 +316,20 @@ impl Sheet {
         facts
     }
 
+    /// What is said where the light's color is a guess for want of the leaf's own.
+    pub fn colorless(&self) -> Option<Finding> {
+        let text =
+            "the material is white, which no leaf is: the color of the light follows from the kind of leaf alone";
+        self.albedo.filter(|albedo| is_white(*albedo)).map(|_| Finding::new(&code::MAP_ESTIMATED, text))
+    }
+
     /// Color of light that comes through over its greatest part, by what the leaf shows by day and the tissue of its kind.
     fn color_estimate(&self, params: &Params) -> Option<[f64; 3]> {
         let estimate = ColorEstimate::new(Preset::named(params.preset.name())?, self.median_mm)?;
-        let through = estimate.of(self.albedo?).map(f64::from);
+        let through = match self.albedo? {
+            white if is_white(white) => estimate.of_its_kind(),
+            albedo => estimate.of(albedo).map(f64::from),
+        };
         let greatest = through.into_iter().fold(0.0, f64::max);
         (greatest > 0.0).then(|| through.map(|part| part / greatest))
     }
@@ -332,6 +345,11 @@ fn are_signed(data: &[f32], channels: usize) -> bool {
     let texels = data.chunks_exact(channels).map(|t| [t[0], t[1], t[2]]).filter(|n| n.iter().any(|v| *v != 0.0));
     let sums = texels.fold([0.0; 2], |[own, half], n| [own + off(n), half + off(n.map(|v| 2.0 * v - 1.0))]);
     sums[0] <= sums[1]
+}
+
+/// No leaf is white: its material has no color of its own.
+fn is_white(albedo: [f32; 3]) -> bool {
+    albedo.iter().all(|v| *v > 0.9)
 }
 
 /// Mean color of the texels that belong to the leaf.
@@ -361,28 +379,5 @@ fn scale_of(map: &str, place: &str, raster: &MapRaster, given: Option<f64>) -> R
             place,
             format!("must be given: map {map} holds whole numbers, and nothing says how many mm white is"),
         )),
-    }
-}
-
-/// Size, wholeness, numbers.
-fn check(name: &str, map: &MapRaster, (width, height): (usize, usize)) -> Result<(), BakeError> {
-    let raster = &map.raster;
-    if (raster.width as usize, raster.height as usize) != (width, height) {
-        let problem =
-            format!("is {} x {} and {} is {width} x {height}", raster.width, raster.height, names::MAP_THICKNESS);
-        return Err(bad(name, problem, "give maps of one size"));
-    }
-    let colors = matches!(name, names::MAP_NORMAL_FRONT | names::MAP_NORMAL_BACK | names::MAP_ALBEDO);
-    if !raster.is_whole() || raster.channels == 0 || (colors && raster.channels < 3) {
-        let problem = format!("has {} channels and {} numbers", raster.channels, raster.data.len());
-        return Err(bad(name, problem, "a normal map has three channels, any other at least one"));
-    }
-    match find_first(&raster.data, |v| !v.is_finite()) {
-        None => Ok(()),
-        Some(at) => {
-            let texel = at / raster.channels as usize;
-            let problem = format!("is {} at column {}, row {}", raster.data[at], texel % width, texel / width);
-            Err(bad(name, problem, "every texel must be a finite number: write it again"))
-        }
     }
 }

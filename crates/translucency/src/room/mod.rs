@@ -5,6 +5,7 @@ mod input;
 mod normalize;
 mod params;
 mod sheet;
+mod size;
 mod texels;
 
 pub use params::{
@@ -109,6 +110,7 @@ fn walk(
     let mut maps = Map::new();
     let (mut done, mut cost) = (0, 0.0f64);
     baked.findings.extend(idle::maps(&params, inputs.maps));
+    baked.findings.extend(sheet.colorless());
     baked.findings.extend(sheet::fitted_tissue(&params, &bands));
     for (side, raster) in sides {
         let map = sheet.lit_side(*side);
@@ -122,6 +124,7 @@ fn walk(
             let name = format!("{raster}{}", band.suffix);
             maps.insert(name.clone(), band.facts(&tables, &recipe, facts.mean));
             let texels = normalize::with_mean(&map, &coefficients, &tables);
+            size::within_range(&texels, facts.mean)?;
             baked.rasters.insert(name, texels::coarser(texels, size, by));
             done += 1;
         }

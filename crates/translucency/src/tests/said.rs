@@ -5,6 +5,13 @@ use foliar_bake::{Baker, MapRaster, Maps};
 use foliar_schema::{Finding, names};
 use serde_json::{Value, json};
 
+/// A leaf whose front alone is shown: no normals of the front, which no light falls on.
+fn seen_from_the_front(size: usize) -> Maps {
+    let mut maps = maps(size);
+    maps.remove(names::MAP_NORMAL_FRONT);
+    maps
+}
+
 fn said(maps: &Maps, given: Value) -> Vec<Finding> {
     bake(maps, given).unwrap().1
 }
@@ -46,7 +53,7 @@ fn the_cost_of_a_step_is_that_of_the_tissue() {
 /// Steps of normals and of heights: what they turn a normal by, and from which size on it is said.
 #[test]
 fn the_bits_of_normals_and_heights_are_warned_of() {
-    let mut there = maps(16);
+    let mut there = seen_from_the_front(16);
     there.get_mut(names::MAP_NORMAL_BACK).unwrap().raster.data.iter_mut().for_each(|v| *v = 0.5 * (*v + 1.0));
     there.get_mut(names::MAP_NORMAL_BACK).unwrap().bits = 8;
     let given = |more: Value| {
@@ -106,17 +113,17 @@ fn a_fitted_tissue_is_told() {
 fn three_bands_are_fitted_each_by_its_own_measurement() {
     let pairs = ["0.08,0.03", "0.12,0.08", "0.05,0.01"];
     let with = |bands: &str, pairs: &str, nm: f64| json!({"texel_mm": 0.5, "sides": "front", "bands": bands, "fit_rt": pairs, "wavelength_nm": nm});
-    let (layer, found) = bake(&maps(8), with("rgb", &pairs.join(";"), 510.0)).unwrap();
+    let (layer, found) = bake(&seen_from_the_front(8), with("rgb", &pairs.join(";"), 510.0)).unwrap();
     assert!(found[0].code == "MAP-FITTED" && found[0].message.matches(" nm").count() == 3, "{found:?}");
     let front = names::RASTER_TRANSLUCENCY_FRONT;
     let bands = [names::BAND_RED, "", names::BAND_BLUE].map(|band| format!("{front}{band}"));
     for ((name, pair), nm) in bands.iter().zip(pairs).zip([610.0, 550.0, 450.0]) {
-        let alone = bake(&maps(8), with("one", pair, nm)).unwrap().0;
+        let alone = bake(&seen_from_the_front(8), with("one", pair, nm)).unwrap().0;
         let tissues = |layer: &foliar_bake::Layer, name: &str| layer.record.facts["maps"][name]["tissues"].clone();
         assert_eq!(tissues(&layer, name), tissues(&alone, front), "{name}");
     }
     for (bands, pairs) in [("rgb", "0.1,0.06"), ("rgb", "0.1,0.06;0.1,0.06"), ("one", "0.1,0.06;0.1,0.06")] {
-        let error = bake(&maps(8), with(bands, pairs, 510.0)).unwrap_err().to_string();
+        let error = bake(&seen_from_the_front(8), with(bands, pairs, 510.0)).unwrap_err().to_string();
         assert!(error.contains("fit_rt") && error.contains("must be R,T"), "{error}");
     }
 }
@@ -198,4 +205,17 @@ fn texels_have_two_edges() {
     // Sums of a few dozen f32 in another order.
     assert!(worst < 1e-5, "{worst}");
     assert!(moved > 1e-2, "{moved}");
+}
+
+/// Over a mean of nearly nothing a thin rim is brighter than a map may hold: refused in words.
+#[test]
+fn a_mean_of_nothing_divides_no_map() {
+    let thickness = (0..64).map(|at| if at % 8 == 0 { 0.001 } else { 2.0 }).collect();
+    let leaf = Maps::from([(names::MAP_THICKNESS.into(), raster(8, 1, thickness))]);
+    let given = |by: &str| json!({"texel_mm": 5.0, "spread": "none", "absorption": 60.0, "normalize": by});
+    assert!(bake(&leaf, given("none")).is_ok() && bake(&leaf, given("diffuse")).is_ok());
+    let few = (0..64 * 64).map(|at| if at == 0 { 0.001 } else { 2.0 }).collect();
+    let dark = Maps::from([(names::MAP_THICKNESS.into(), raster(64, 1, few))]);
+    let error = bake(&dark, given("mean")).unwrap_err().to_string();
+    assert!(error.contains("thickness") && error.contains("normalize = mean") && error.contains("diffuse"), "{error}");
 }
